@@ -38,6 +38,12 @@ internal sealed record AnimationJob(
     /// <summary>The part of a frame's time in which the shutter is open, from 0 to 1.</summary>
     public double Shutter { get; init; }
 
+    /// <summary>The first and the last frame to make of all, from 1; null for all of them.</summary>
+    public (int First, int Last)? Only { get; init; }
+
+    /// <summary>Whether frames stay that are there.</summary>
+    public bool IsResumed { get; init; }
+
     /// <summary>Number of images whose mean is a frame, at even times while the shutter is open.</summary>
     public int PartCount { get; private init; } = 1;
 
@@ -51,6 +57,9 @@ internal sealed record AnimationJob(
         var motions = new[] { IsTurntable, CameraList is not null, Images.ZoomLevels > 0 }.Count(static asked => asked);
         UsageException.ThrowIf(motions > 1, "--turntable, --zoom and --path exclude each other");
         CheckFormat(Output, FramesPerSecond, Images.Background.IsTransparent);
+        UsageException.ThrowIf(
+            (Only is not null || IsResumed) && !AnimationOutput.HasNoTimes(Output),
+            "--only and --resume need numbered images: expected --output to end in .png, .exr or .hdr");
     }
 
     /// <summary>Returns the same animation of a scene, with its number of frames, and of the parts that a shutter makes of each.</summary>
@@ -68,6 +77,8 @@ internal sealed record AnimationJob(
             FrameCount is null && filmFrames > MaxFrameCount,
             $"the film has more than the limit of {MaxFrameCount} frames: expected a smaller --fps, or --frames");
         var counted = this with { FrameCount = FrameCount ?? (int)filmFrames };
+        UsageException.ThrowIf(
+            Only?.Last > counted.FrameCount, FormattableString.Invariant($"--only {Only?.First}..{Only?.Last}: there are {counted.FrameCount} frames"));
         if (!(Shutter > 0))
         {
             return counted;
@@ -85,7 +96,8 @@ internal sealed record AnimationJob(
     /// <summary>Creates the output for the ending of its name.</summary>
     /// <exception cref="IOException">It needs a program that is not installed.</exception>
     /// <exception cref="UsageException">No format has its ending.</exception>
-    public AnimationOutput CreateOutput() => AnimationOutput.Create(Output, FrameCount!.Value, FramesPerSecond)
+    public AnimationOutput CreateOutput() => AnimationOutput.Create(
+        Output, Only?.Last ?? FrameCount!.Value, FramesPerSecond, Only?.First ?? 1)
         ?? throw new UsageException($"--output '{Output}' must end in {AnimationOutput.Endings}");
 
     /// <summary>Requires the format of an output to be able to hold the frames.</summary>

@@ -21,6 +21,10 @@ internal sealed class TimedFrames(
     private readonly AssetCache _cache = new();
     private double _shownTime = animation.TimeOf(0);
 
+    /// <summary>Passes over a frame that is not asked for: a camera that flies into a fractal goes on from it.</summary>
+    /// <param name="frame">Index of the frame, from 0.</param>
+    public void Skip(int frame) => motion(frame);
+
     /// <summary>Makes a frame. Frames must be asked for in order.</summary>
     /// <param name="frame">Index of the frame, from 0.</param>
     /// <param name="cancellation">Ends the work.</param>

@@ -1,11 +1,15 @@
 using System.CommandLine;
+using System.CommandLine.Parsing;
+using System.Globalization;
 using FractalEngine.App.Animation;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
+using FractalEngine.Core;
 using FractalEngine.Core.Images.Animations;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Simulation;
+using FractalEngine.Render.Images;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
@@ -38,17 +42,27 @@ internal static class AnimateCommand
         var simulate = new Option<bool>("--simulate") { Description = "Let the physics objects of the scene move." };
         var path = SharedOptions.TextOption(
             "--path", "CAMERAS.txt", "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.");
+        var only = RangeOption();
+        var resume = SharedOptions.Flag("--resume", "Leave numbered images as they are that are there already, and make the others.");
+        var join = SharedOptions.Flag("--join", "Put the numbered images of FILE, such as frames.png, together; nothing is drawn.");
         var command = new DocumentedCommand(
             "animate", "Draw FILE into the frames of an animation: its film, --turntable, --zoom, --path and --simulate say what moves.",
             "animate assets/fractals/tree.fdo --turntable --output out/tree.apng --resolution 480x270",
             "animate assets/scenes/playground.sdo --simulate --frames 120 --output out/frames.png")
         {
-            output, frames, rate, shutter, turntable, simulate, path,
+            output, frames, only, resume, join, rate, shutter, turntable, simulate, path,
         };
         images.AddTo(command);
         report.AddTo(command);
         command.SetAction(result =>
         {
+            if (result.GetValue(join))
+            {
+                RequireNoOthers(result, output, join, rate);
+                return Join(
+                    images.File(result), result.GetRequiredValue(output), result.GetValue(rate) ?? DefaultFramesPerSecond, report.Begin(result));
+            }
+
             var (job, trace) = images.Read(result, result.GetRequiredValue(output));
             if (result.GetValue(path) is not null && images.Camera.IsGiven(result))
             {
@@ -63,6 +77,8 @@ internal static class AnimateCommand
             {
                 Trace = trace,
                 Shutter = result.GetValue(shutter) ?? 0,
+                Only = result.GetValue(only),
+                IsResumed = result.GetValue(resume),
             };
             return Run(animation, result.GetValue(rate) is not null, report.Begin(result));
         });
@@ -123,24 +139,37 @@ internal static class AnimateCommand
     private static int Write(AnimationJob animation, TimedFrames frames, AnimationOutput output, WrittenReport report)
     {
         using var interruption = new InterruptSignal();
-        var count = animation.FrameCount!.Value;
-        var progress = new TerminalProgress("frame", count, report.IsQuiet);
-        var done = 0;
+        var (first, last) = animation.Only ?? (1, animation.FrameCount!.Value);
+        var progress = new TerminalProgress("frame", last + 1 - first, report.IsQuiet);
+        var (frame, made, known) = (0, 0, 0);
         try
         {
-            for (; done < count; done++)
+            for (; frame < last; frame++)
             {
-                if (animation.Images.Format is { } format)
+                if (frame < first - 1)
                 {
-                    var frame = frames.CreateLight(done, interruption.Token);
-                    output.AddFile(stream => format.Write(frame, stream));
+                    frames.Skip(frame);
+                    continue;
+                }
+
+                if (animation.IsResumed && output.TrySkip())
+                {
+                    frames.Skip(frame);
+                    known++;
+                }
+                else if (animation.Images.Format is { } format)
+                {
+                    var light = frames.CreateLight(frame, interruption.Token);
+                    output.AddFile(stream => format.Write(light, stream));
+                    made++;
                 }
                 else
                 {
-                    output.Add(frames.Create(done, interruption.Token));
+                    output.Add(frames.Create(frame, interruption.Token));
+                    made++;
                 }
 
-                progress.Report(done + 1);
+                progress.Report(made + known);
             }
         }
         catch (OperationCanceledException)
@@ -148,21 +177,81 @@ internal static class AnimateCommand
             interruption.Acknowledge();
             // What is done stays, in whole frames.
             progress.End();
-            Complete(output, report, done);
+            Complete(output, report, made, known);
             throw;
         }
 
         progress.End();
-        Complete(output, report, done);
+        Complete(output, report, made, known);
         return ExitCode.Done;
     }
 
-    private static void Complete(AnimationOutput output, WrittenReport report, int frameCount)
+    private static void Complete(AnimationOutput output, WrittenReport report, int made, int known)
     {
-        if (frameCount > 0)
+        if (made + known > 0)
         {
             output.Complete();
-            report.Written(output.Name, frameCount == 1 ? "1 frame" : $"{frameCount} frames");
+            var frames = made == 1 ? "1 frame" : $"{made} frames";
+            report.Written(output.Name, known == 0 ? frames : $"{frames}, {known} were there");
         }
     }
+
+    /// <summary>Requires no option that says something of images which are drawn.</summary>
+    private static void RequireNoOthers(ParseResult result, params Option[] allowed)
+    {
+        var names = allowed.Select(static option => option.Name).Concat(["--quiet", "--verbose", "--limit"]).ToHashSet();
+        if (result.CommandResult.Children.OfType<OptionResult>().FirstOrDefault(
+            given => !given.Implicit && !names.Contains(given.Option.Name)) is { } other)
+        {
+            throw new UsageException($"{other.Option.Name} has no effect with --join, which draws nothing");
+        }
+    }
+
+    /// <summary>Makes one animation of numbered images.</summary>
+    private static int Join(string frames, string output, double framesPerSecond, WrittenReport report)
+    {
+        AnimationJob.CheckFormat(output, framesPerSecond, isTransparent: false);
+        var files = AnimationOutput.FindNumbered(frames);
+        var example = $"{Path.ChangeExtension(frames, null)}-0001{Path.GetExtension(frames)}";
+        UsageException.ThrowIf(files.Count == 0, $"there are no numbered images of {frames}, such as {example}");
+        UsageException.ThrowIf(
+            AnimationOutput.HasNoTimes(output), $"--output '{output}' must end in .apng, .mp4, .webm or .gif, to put images together");
+        if (files.FirstOrDefault(static file => !File.Exists(file)) is { } missing)
+        {
+            throw new FractalEngineException($"{missing} is missing, and {files[^1]} is there: make it first, with --resume");
+        }
+
+        InputFiles.Protect(output);
+        using var interruption = new InterruptSignal();
+        using var joined = AnimationOutput.Create(output, files.Count, framesPerSecond)
+            ?? throw new UsageException($"--output '{output}' must end in {AnimationOutput.Endings}");
+        foreach (var file in files)
+        {
+            interruption.ThrowIfRequested();
+            joined.Add(ImageFile.Load(file));
+        }
+
+        Complete(joined, report, files.Count, 0);
+        return ExitCode.Done;
+    }
+
+    /// <summary>Creates the option for the numbers of frames that are made.</summary>
+    private static Option<(int First, int Last)?> RangeOption() => new("--only")
+    {
+        Description = "Make these of all frames, from 1, such as 61..120: with numbered images, each on any machine.",
+        HelpName = "A..B",
+        CustomParser = result =>
+        {
+            if (result.Tokens is [{ Value: var token }] && token.Split("..") is [var from, var to]
+                && int.TryParse(from, NumberStyles.None, CultureInfo.InvariantCulture, out var first)
+                && int.TryParse(to, NumberStyles.None, CultureInfo.InvariantCulture, out var last)
+                && first >= 1 && last >= first && last <= AnimationJob.MaxFrameCount)
+            {
+                return (first, last);
+            }
+
+            result.AddError("--only: expected numbers of frames such as 61..120");
+            return null;
+        },
+    };
 }

@@ -12,7 +12,7 @@ namespace FractalEngine.App.Commands;
 /// </summary>
 internal static class CheckCommand
 {
-    private static readonly string[] Endings = [".obj", ".obj.gz", ".ply", ".stl", ".fdo", ".sdo"];
+    private static readonly string[] Endings = [".obj", ".obj.gz", ".ply", ".stl", ".glb", ".gltf", ".fdo", ".sdo"];
 
     public static Command Create()
     {

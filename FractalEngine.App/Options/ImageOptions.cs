@@ -34,6 +34,9 @@ internal sealed class ImageOptions(bool canKeepPartial)
         _trace.AddTo(command);
     }
 
+    /// <summary>The file that the command line names.</summary>
+    public string File(ParseResult result) => result.GetRequiredValue(_shared.File);
+
     /// <summary>Returns what the command line asks for.</summary>
     /// <param name="result">The parsed command line.</param>
     /// <param name="output">Name of the output.</param>

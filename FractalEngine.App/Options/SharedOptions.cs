@@ -28,7 +28,8 @@ internal sealed class SharedOptions
     public static (int Width, int Height) DefaultResolution => (1280, 720);
 
     public Argument<string> File { get; } = FileArgument(
-        "A mesh (.obj, .obj.gz, .ply, .stl), a fractal (.fdo) or a scene (.sdo); '-' reads a scene or a fractal from the standard input.");
+        "A mesh (.obj, .obj.gz, .ply, .stl, .glb, .gltf), a fractal (.fdo) or a scene (.sdo); "
+            + "'-' reads a scene or a fractal from the standard input.");
 
     /// <summary>The option that lifts the restriction of <see cref="AssetFolder"/>.</summary>
     public Option<bool> AllowOutside { get; } = Flag("--allow-outside", "Allow files to refer to files outside their folder.");

@@ -1,3 +1,5 @@
+using System.Collections.Immutable;
+
 namespace FractalEngine.Core.Geometry;
 
 /// <summary>
@@ -10,6 +12,11 @@ namespace FractalEngine.Core.Geometry;
 /// <param name="Path">Path of the image file: as the material file names it, or in full once it has been resolved.</param>
 public sealed record MaterialTexture(string Path)
 {
+    /// <summary>
+    /// The bytes of an image that is part of another file; empty for a file of its own. The path is then a name that no other image has.
+    /// </summary>
+    public ImmutableArray<byte> Contents { get; init; } = [];
+
     /// <summary><c>-clamp on</c>: beyond its edges the texture continues with their colours instead of repeating.</summary>
     public bool IsClamped { get; init; }
 

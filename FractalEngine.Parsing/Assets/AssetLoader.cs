@@ -45,7 +45,7 @@ public sealed class AssetLoader
     }
 
     /// <summary>Loads a file and everything that it refers to.</summary>
-    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
+    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <param name="progress">Receives the progress of each large file.</param>
     /// <param name="cache">What earlier loads with the same options have read, to read only what has changed; null for none.</param>
@@ -70,7 +70,7 @@ public sealed class AssetLoader
     }
 
     /// <summary>Loads a file only to find its faults.</summary>
-    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .fdo or .sdo.</param>
+    /// <param name="path">Path that ends in .obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo or .sdo.</param>
     /// <param name="options">Options for loading; null for the defaults.</param>
     /// <returns>
     /// Errors: of a scene those of its lines, a hundred at most, then one for each file that it refers to. Then the warnings.

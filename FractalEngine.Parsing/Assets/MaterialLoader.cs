@@ -90,6 +90,14 @@ internal sealed class MaterialLoader(
             reference.Offset, $"the file declares no material '{name}'{NameSuggestion.Ask(name, names)}");
     }
 
+    /// <summary>Leaves out the images within a mesh's own file that can't be used, each with a warning.</summary>
+    /// <param name="materials">Materials with the bytes of their images.</param>
+    /// <param name="fileName">Name of the mesh's file in messages.</param>
+    public ImmutableDictionary<string, Material> WithUsableImages(IReadOnlyDictionary<string, Material> materials, string fileName) =>
+        materials.ToImmutableDictionary(static pair => pair.Key, pair => TextureSlot.All.Aggregate(
+            pair.Value, (material, slot) => slot.Of(material) is { } texture && !_textures.IsUsable(texture, fileName, slot.Consequence)
+                ? slot.With(material, null) : material));
+
     /// <summary>
     /// Adds the material file beside a mesh that has the mesh's name, for meshes that name none. False without such a file.
     /// </summary>

@@ -346,7 +346,7 @@ internal sealed class ModelLoader
             Warnings.Add(new(displayName, 1, 1, DiagnosticSeverity.Warning, "the file has no faces, so nothing of it is drawn"));
         }
 
-        var materials = _materials.Load(parsed, fullPath);
+        var materials = parsed.Materials is { } own ? _materials.WithUsableImages(own, displayName) : _materials.Load(parsed, fullPath);
         return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, Record.Since(filesBefore));
     }
 
@@ -363,13 +363,21 @@ internal sealed class ModelLoader
             FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value), Values);
     }
 
-    private ParsedObj ReadOrFindMesh(string fullPath, string displayName) =>
-        AssetCache.ReadOrFind(_cache, fullPath, Record.Add(fullPath), () =>
+    private ParsedObj ReadOrFindMesh(string fullPath, string displayName)
+    {
+        var stamp = Record.Add(fullPath);
+        // What a .gltf names may change without it.
+        return fullPath.EndsWith(".gltf", StringComparison.OrdinalIgnoreCase)
+            ? Read() : AssetCache.ReadOrFind(_cache, fullPath, stamp, Read);
+
+        ParsedObj Read()
         {
-            var parsed = MeshReader.Read(fullPath, displayName, _progress is null ? null : new FileProgress(displayName, _progress));
+            var progress = _progress is null ? null : new FileProgress(displayName, _progress);
+            var parsed = MeshReader.Read(fullPath, displayName, progress, _references);
             _cache?.ReadCount += 1;
             return parsed;
-        });
+        }
+    }
 
     /// <summary>Reads a text, or takes the one that the options have in its place.</summary>
     /// <exception cref="SourceException">The file can't be read.</exception>

@@ -36,6 +36,35 @@ internal sealed class TextureFiles(FileReferenceResolver references, List<Diagno
         return path is null ? null : texture with { Path = path };
     }
 
+    /// <summary>Tells whether an image that is part of another file may be decoded; one that may not has a warning.</summary>
+    /// <param name="texture">With the bytes of the image.</param>
+    /// <param name="fileName">Name of the file with the image, for messages.</param>
+    /// <param name="consequence">What happens without it; null for an image that is never decoded, which needs no message.</param>
+    public bool IsUsable(MaterialTexture texture, string fileName, string? consequence)
+    {
+        var name = Path.GetFileName(texture.Path);
+        if (!_textureFiles.TryGetValue(texture.Path, out var isUsable))
+        {
+            try
+            {
+                CheckImage(new(fileName, ""), 0, new MemoryStream([.. texture.Contents]), false, name);
+                isUsable = true;
+            }
+            catch (SourceException fault)
+            {
+                warnings.Add(fault.Diagnostic with
+                {
+                    Severity = DiagnosticSeverity.Warning,
+                    Message = $"{fault.Diagnostic.Message}: {consequence ?? "left out"}",
+                });
+            }
+
+            _textureFiles[texture.Path] = isUsable;
+        }
+
+        return isUsable;
+    }
+
     private string? FindUsable(SourceText source, int offset, string referrer, string file, string consequence)
     {
         if (_textureWarningCount >= MaxTextureWarnings && references.FindForeign(referrer, file) is null)
@@ -80,43 +109,47 @@ internal sealed class TextureFiles(FileReferenceResolver references, List<Diagno
             }
 
             using var stream = new FileStream(fullPath, FileMode.Open, FileAccess.Read, FileShare.Read);
-            if (stream.Length > ParsingLimits.ImageBytes.Value)
-            {
-                throw source.Error(offset, $"the image \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes.Value} bytes",
-                    isLimitExceeded: true);
-            }
-
-            var isTga = ImageHeader.IsTga(fullPath);
-            if (ImageHeader.Read(stream, isTga) is not { Width: > 0 and var width, Height: > 0 and var height } header)
-            {
-                throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
-            }
-
-            if (Math.Max(width, height) > ParsingLimits.ImageSide.Value)
-            {
-                throw source.Error(offset,
-                    $"the image \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide.Value} per side",
-                    isLimitExceeded: true);
-            }
-
-            if (_totalPixels + (width * height) > ParsingLimits.TotalImagePixels.Value)
-            {
-                throw source.Error(offset,
-                    $"with \"{file}\" all images have more than the limit of {ParsingLimits.TotalImagePixels.Value} pixels",
-                    isLimitExceeded: true);
-            }
-
-            if (header.FindFault(stream.Length) is { } fault)
-            {
-                throw source.Error(offset, $"the image \"{file}\" {fault}");
-            }
-
-            _totalPixels += width * height;
+            CheckImage(source, offset, stream, ImageHeader.IsTga(fullPath), file);
             StorageBytes += stream.Length;
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
         {
             throw source.Error(offset, $"the image \"{file}\" can't be read: {exception.Message}");
         }
+    }
+
+    private void CheckImage(SourceText source, int offset, Stream stream, bool isTga, string file)
+    {
+        if (stream.Length > ParsingLimits.ImageBytes.Value)
+        {
+            throw source.Error(offset, $"the image \"{file}\" is larger than the limit of {ParsingLimits.ImageBytes.Value} bytes",
+                isLimitExceeded: true);
+        }
+
+        if (ImageHeader.Read(stream, isTga) is not { Width: > 0 and var width, Height: > 0 and var height } header)
+        {
+            throw source.Error(offset, $"\"{file}\" is not a PNG, JPEG, BMP or TGA image");
+        }
+
+        if (Math.Max(width, height) > ParsingLimits.ImageSide.Value)
+        {
+            throw source.Error(offset,
+                $"the image \"{file}\" has {width}×{height} pixels, more than the limit of {ParsingLimits.ImageSide.Value} per side",
+                isLimitExceeded: true);
+        }
+
+        if (_totalPixels + (width * height) > ParsingLimits.TotalImagePixels.Value)
+        {
+            throw source.Error(offset,
+                $"with \"{file}\" all images have more than the limit of {ParsingLimits.TotalImagePixels.Value} pixels",
+                isLimitExceeded: true);
+        }
+
+        if (header.FindFault(stream.Length) is { } fault)
+        {
+            throw source.Error(offset, $"the image \"{file}\" {fault}");
+        }
+
+        _totalPixels += width * height;
     }
 }

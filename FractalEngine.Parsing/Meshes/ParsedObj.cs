@@ -19,6 +19,9 @@ public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
     public IReadOnlyDictionary<string, SourcePosition> MaterialPositions { get; init; } =
         ReadOnlyDictionary<string, SourcePosition>.Empty;
 
+    /// <summary>The materials of the file itself; null where they are those of other files.</summary>
+    public IReadOnlyDictionary<string, Material>? Materials { get; init; }
+
     /// <summary>Size of the file that was read, in bytes; 0 for a text that comes from no file.</summary>
     public long ByteCount { get; init; }
 }

@@ -4,7 +4,7 @@ namespace FractalEngine.Parsing.Text;
 internal static class FileKinds
 {
     /// <summary>The endings of meshes, for messages.</summary>
-    public const string MeshEndings = ".obj, .obj.gz, .ply, .stl";
+    public const string MeshEndings = ".obj, .obj.gz, .ply, .stl, .glb, .gltf";
 
     private const string CompressedEnding = ".gz";
 
@@ -12,7 +12,7 @@ internal static class FileKinds
     /// <param name="name">Name or path; upper and lower case are alike.</param>
     public static FileKind? FromName(string name) => Path.GetExtension(name).ToUpperInvariant() switch
     {
-        ".OBJ" or ".PLY" or ".STL" => FileKind.Mesh,
+        ".OBJ" or ".PLY" or ".STL" or ".GLB" or ".GLTF" => FileKind.Mesh,
         ".GZ" when Path.GetExtension(RemoveCompression(name)).Equals(".obj", StringComparison.OrdinalIgnoreCase) => FileKind.Mesh,
         ".FDO" => FileKind.Fractal,
         ".SDO" => FileKind.Scene,

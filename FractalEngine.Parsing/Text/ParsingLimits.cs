@@ -66,10 +66,14 @@ public static class ParsingLimits
     public static Limit PolygonCorners { get; } = new(
         "polygon-corners", 20_000, "corners of a polygon", "cutting it takes a time of their square at worst");
 
+    /// <summary>Largest number of corners of a glTF file: vertices or indices of each mesh, as often as nodes show it.</summary>
+    public static Limit GltfCorners { get; } = new(
+        "gltf-corners", 100_000_000, "corners of all nodes of a glTF file", "about 6 GB", 500_000_000);
+
     /// <summary>All limits of parsers, in the order of a listing.</summary>
     public static ImmutableArray<Limit> All { get; } =
     [
         ObjBytes, DescriptionBytes, SceneLines, PointsBytes, Maps, Names, RepeatedSteps, ExpressionTerms, BaseFiles, MaterialBytes,
-        ImageBytes, ImageSide, TotalImagePixels, SkyPixels, PolygonCorners,
+        ImageBytes, ImageSide, TotalImagePixels, SkyPixels, PolygonCorners, GltfCorners,
     ];
 }

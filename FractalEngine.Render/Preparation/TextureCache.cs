@@ -28,6 +28,8 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
     private readonly Dictionary<(string? Colour, string Opacity), DrawableTexture?> _texturesWithOpacity = [];
     private readonly Dictionary<Material, DrawableMaterial> _materials = [];
     private readonly HashSet<string> _undecodable = [];
+    // Images that are parts of other files, by their paths.
+    private readonly Dictionary<string, ImmutableArray<byte>> _contents = [];
     private long _pixelsWithOpacity;
 
     /// <summary>Textures that are used so far.</summary>
@@ -60,6 +62,14 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
         if (shareTextures && _materials.TryGetValue(material, out var cached))
         {
             return cached;
+        }
+
+        foreach (var texture in new[] { material.Texture, material.OpacityTexture, material.DetailTexture })
+        {
+            if (texture is { Contents.IsEmpty: false })
+            {
+                _contents[texture.Path] = texture.Contents;
+            }
         }
 
         return _materials[material] = LoadColours(material) with
@@ -166,7 +176,9 @@ internal sealed class TextureCache(ImmutableArray<string>.Builder notices, bool 
 
         try
         {
-            return ImageFile.Load(path);
+            return _contents.TryGetValue(path, out var contents)
+                ? ImageFile.Load(new MemoryStream([.. contents]), isTga: false)
+                : ImageFile.Load(path);
         }
         catch (IOException exception)
         {

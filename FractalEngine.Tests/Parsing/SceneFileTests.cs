@@ -199,7 +199,7 @@ public sealed class SceneFileTests : IDisposable
         Fails("the clip planes must satisfy 0 < near < far", row with { Clip = (2, 1) });
         Fails("the components of a colour must lie between 0 and 1", row with { Background = new(2, 0, 0) });
         Fails("unexpected 'NaN', expected a number", row with { Gravity = new(0, double.NaN, 0) });
-        Fails("expected the name of a mesh or fractal (.obj, .obj.gz, .ply, .stl, .fdo)",
+        Fails("expected the name of a mesh or fractal (.obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo)",
             Of(new SceneObject("a.png", Transformation.Identity)));
         Fails("unexpected 'NaN', expected a number", Of(new PhysicsObject(Model.Of(Row())) { Shrinkage = double.NaN }));
         Assert.Empty(Files);

@@ -8,7 +8,7 @@ internal static class PathCompletion
     // A folder of photographs must not stop the window.
     private const int MaxSuggestions = 200;
 
-    private static readonly string[] Endings = [".sdo", ".fdo", ".obj", ".obj.gz", ".ply", ".stl"];
+    private static readonly string[] Endings = [".sdo", ".fdo", ".obj", ".obj.gz", ".ply", ".stl", ".glb", ".gltf"];
 
     private static readonly EnumerationOptions Listing = new() { IgnoreInaccessible = true, AttributesToSkip = 0 };
 

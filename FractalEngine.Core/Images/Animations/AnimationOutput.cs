@@ -13,16 +13,22 @@ public abstract class AnimationOutput : IDisposable
     /// <param name="path">Path that ends in one of <see cref="Endings"/>.</param>
     /// <param name="frameCount">Number of frames that will follow.</param>
     /// <param name="framesPerSecond">Frames a second.</param>
+    /// <param name="firstFrame">Number of the first frame, from 1, of numbered images.</param>
     /// <returns>Null where the ending is another one.</returns>
     /// <exception cref="IOException">The output needs the program ffmpeg, which is not installed.</exception>
-    public static AnimationOutput? Create(string path, int frameCount, double framesPerSecond) =>
+    public static AnimationOutput? Create(string path, int frameCount, double framesPerSecond, int firstFrame = 1) =>
         Path.GetExtension(path).ToUpperInvariant() switch
         {
-            ".PNG" or ".EXR" or ".HDR" => new NumberedImages(path, frameCount),
+            ".PNG" or ".EXR" or ".HDR" => new NumberedImages(path, frameCount, firstFrame),
             ".APNG" => new AnimatedImage(path, framesPerSecond),
             ".MP4" or ".WEBM" or ".GIF" => new Video(path, framesPerSecond),
             _ => null,
         };
+
+    /// <summary>Finds the images that an earlier animation has numbered.</summary>
+    /// <param name="path">Path without the numbers, such as <c>frames.png</c>.</param>
+    /// <returns>Their paths, from number 1 to the last one; some may be missing. Empty where there are none.</returns>
+    public static IReadOnlyList<string> FindNumbered(string path) => NumberedImages.Find(path);
 
     /// <summary>Path of the file, or a text for the files, in the report.</summary>
     public abstract string Name { get; }
@@ -37,6 +43,9 @@ public abstract class AnimationOutput : IDisposable
     /// <param name="write">Writes the file, in the format that the ending names.</param>
     /// <exception cref="NotSupportedException">The output is one file.</exception>
     public virtual void AddFile(Action<Stream> write) => throw new NotSupportedException($"{Name} has no file for each frame");
+
+    /// <summary>Passes over the next frame, if it is a file of its own that is there already.</summary>
+    public virtual bool TrySkip() => false;
 
     /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
     public abstract void Complete();

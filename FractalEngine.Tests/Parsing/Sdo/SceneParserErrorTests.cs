@@ -47,7 +47,7 @@ public class SceneParserErrorTests
     [InlineData("o \"a.obj\" (#, #)", 16,
         "unexpected ')': a placement is '#' or three vectors in parentheses, (position, rotation, scale)")]
     [InlineData("o a.obj #", 3, "unexpected 'a', expected a file name in quotes")]
-    [InlineData("o \"a.png\" #", 3, "expected the name of a mesh or fractal (.obj, .obj.gz, .ply, .stl, .fdo)")]
+    [InlineData("o \"a.png\" #", 3, "expected the name of a mesh or fractal (.obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo)")]
     [InlineData("o \"a.obj #", 11, "unexpected end of file, expected '\"'")]
     [InlineData("o \"a.obj\" (#, #, (1, 0, 1))", 18,
         "the scale (1, 0, 1) is singular: each factor must lie between 1e-100 and 1e100 in size")]

@@ -1,0 +1,82 @@
+using System.Collections.Immutable;
+using System.Globalization;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using SharpGLTF.Schema2;
+using Material = FractalEngine.Core.Geometry.Material;
+
+namespace FractalEngine.Parsing.Gltf;
+
+/// <summary>Converts materials of glTF, each once, with the bytes of their images.</summary>
+/// <param name="path">Full path of the file, before the numbers of its images.</param>
+internal sealed class GltfMaterials(string path)
+{
+    private readonly Dictionary<int, (Material Material, MaterialChannel? Texture)> _materials = [];
+    private readonly Dictionary<int, MaterialTexture> _images = [];
+
+    /// <summary>Converts a material. Its name is unique: those that are not are followed by a number.</summary>
+    /// <returns>The material, and the channel whose coordinates its texture takes; null where it has none.</returns>
+    public (Material Material, MaterialChannel? Texture) Convert(SharpGLTF.Schema2.Material source)
+    {
+        if (!_materials.TryGetValue(source.LogicalIndex, out var known))
+        {
+            known = Create(source);
+            _materials.Add(source.LogicalIndex, known);
+        }
+
+        return known;
+    }
+
+    private (Material Material, MaterialChannel? Texture) Create(SharpGLTF.Schema2.Material source)
+    {
+        var number = source.LogicalIndex.ToString(CultureInfo.InvariantCulture);
+        var name = string.IsNullOrWhiteSpace(source.Name) ? $"material {number}"
+            : source.LogicalParent.LogicalMaterials.Count(other => other.Name == source.Name) > 1 ? $"{source.Name} {number}"
+            : source.Name;
+        var colour = source.FindChannel("BaseColor") ?? source.FindChannel("Diffuse");
+        var factor = colour?.Color ?? System.Numerics.Vector4.One;
+        var surface = source.FindChannel("MetallicRoughness");
+        // Where an image says how rough and how metallic a place is, factors alone say nothing.
+        var isEven = surface is { Texture: null } && !source.Unlit;
+        var transmission = Factor(source, "Transmission", "TransmissionFactor", 0);
+        return (new(name)
+        {
+            Diffuse = new Colour(factor.X, factor.Y, factor.Z).FromLinear(),
+            Texture = colour is { Texture: { } texture } ? Convert(texture) : null,
+            Opacity = source.Alpha == AlphaMode.BLEND ? Math.Clamp(factor.W, 0, 1) : 1 - Math.Clamp(transmission, 0, 1),
+            RefractiveIndex = transmission > 0 ? source.IndexOfRefraction : 1,
+            Roughness = isEven ? Factor(source, "MetallicRoughness", "RoughnessFactor", 1) : null,
+            Metalness = isEven ? Factor(source, "MetallicRoughness", "MetallicFactor", 1) : null,
+            Emission = source.FindChannel("Emissive") is { Texture: null, Color: var light }
+                ? Factor(source, "Emissive", "EmissiveStrength", 1) is var strength
+                    ? new(light.X * strength, light.Y * strength, light.Z * strength) : Colour.Black
+                : Colour.Black,
+            NormalTexture = source.FindChannel("Normal") is { Texture: { } normals } ? Convert(normals) : null,
+        }, colour is { Texture: not null } ? colour : null);
+    }
+
+    private static double Factor(SharpGLTF.Schema2.Material source, string channel, string name, double missing) =>
+        source.FindChannel(channel) is { } found && found.Parameters.Any(parameter => parameter.Name == name)
+            ? found.GetFactor(name) : missing;
+
+    private MaterialTexture? Convert(Texture texture)
+    {
+        if (texture.PrimaryImage is not { } image)
+        {
+            return null;
+        }
+
+        if (!_images.TryGetValue(image.LogicalIndex, out var known))
+        {
+            var contents = image.Content.Content.ToArray();
+            // Changed contents are another image, also under the same number.
+            known = new(string.Create(CultureInfo.InvariantCulture, $"{path}#{image.LogicalIndex}.{Crc32.Append(0, contents):x8}"))
+            {
+                Contents = ImmutableArray.Create(contents),
+            };
+            _images.Add(image.LogicalIndex, known);
+        }
+
+        return known with { IsClamped = texture.Sampler?.WrapS == TextureWrapMode.CLAMP_TO_EDGE };
+    }
+}

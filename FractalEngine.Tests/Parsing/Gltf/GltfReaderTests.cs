@@ -1,0 +1,349 @@
+using System.Globalization;
+using System.Text;
+using System.Text.Json.Nodes;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Gltf;
+using FractalEngine.Parsing.Text;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Gltf;
+
+/// <summary>glTF files that are written here byte by byte, after the specification of glTF 2.0.</summary>
+public sealed class GltfReaderTests : IDisposable
+{
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    /// <summary>A file of one buffer, to which accessors are added one after the other.</summary>
+    private sealed class Document
+    {
+        private readonly MemoryStream _bytes = new();
+
+        public JsonObject Root { get; } = JsonNode.Parse("""
+            {"asset": {"version": "2.0"}, "buffers": [{}], "bufferViews": [], "accessors": [], "meshes": [], "nodes": [], "materials": []}
+            """)!.AsObject();
+
+        public JsonArray this[string name] => Root[name]!.AsArray();
+
+        /// <summary>Adds an accessor of floats (5126), or of integers of another type.</summary>
+        public int Add(string type, int componentType, int components, params double[] numbers)
+        {
+            while (_bytes.Length % 4 != 0)
+            {
+                _bytes.WriteByte(0);
+            }
+
+            var start = _bytes.Length;
+            using var writer = new BinaryWriter(_bytes, Encoding.UTF8, leaveOpen: true);
+            foreach (var number in numbers)
+            {
+                switch (componentType)
+                {
+                    case 5121: writer.Write((byte)number); break;
+                    case 5123: writer.Write((ushort)number); break;
+                    case 5125: writer.Write((uint)number); break;
+                    default: writer.Write((float)number); break;
+                }
+            }
+
+            this["bufferViews"].Add(new JsonObject { ["buffer"] = 0, ["byteOffset"] = start, ["byteLength"] = _bytes.Length - start });
+            var count = numbers.Length / components;
+            var accessor = new JsonObject
+            {
+                ["bufferView"] = this["bufferViews"].Count - 1, ["componentType"] = componentType, ["count"] = count, ["type"] = type,
+            };
+            if (type == "VEC3" && componentType == 5126)
+            {
+                accessor["min"] = new JsonArray([.. Enumerable.Range(0, 3).Select(i => (JsonNode)numbers.Where((_, n) => n % 3 == i).Min())]);
+                accessor["max"] = new JsonArray([.. Enumerable.Range(0, 3).Select(i => (JsonNode)numbers.Where((_, n) => n % 3 == i).Max())]);
+            }
+
+            this["accessors"].Add(accessor);
+            return this["accessors"].Count - 1;
+        }
+
+        public int AddImage(byte[] contents)
+        {
+            var start = _bytes.Length;
+            _bytes.Write(contents);
+            this["bufferViews"].Add(new JsonObject { ["buffer"] = 0, ["byteOffset"] = start, ["byteLength"] = contents.Length });
+            return this["bufferViews"].Count - 1;
+        }
+
+        public string Embedded()
+        {
+            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Root["buffers"]![0]!["uri"] = "data:application/octet-stream;base64," + Convert.ToBase64String(_bytes.ToArray());
+            return Trimmed().ToJsonString();
+        }
+
+        public (string Text, byte[] Buffer) Separate(string name)
+        {
+            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Root["buffers"]![0]!["uri"] = name;
+            return (Trimmed().ToJsonString(), _bytes.ToArray());
+        }
+
+        public byte[] Binary()
+        {
+            while (_bytes.Length % 4 != 0)
+            {
+                _bytes.WriteByte(0);
+            }
+
+            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Root["buffers"]![0]!.AsObject().Remove("uri");
+            var json = Encoding.UTF8.GetBytes(Trimmed().ToJsonString());
+            json = [.. json, .. Enumerable.Repeat((byte)' ', (4 - (json.Length % 4)) % 4)];
+            var result = new MemoryStream();
+            using var writer = new BinaryWriter(result);
+            writer.Write("glTF"u8);
+            writer.Write(2u);
+            writer.Write((uint)(12 + 8 + json.Length + 8 + _bytes.Length));
+            writer.Write((uint)json.Length);
+            writer.Write("JSON"u8);
+            writer.Write(json);
+            writer.Write((uint)_bytes.Length);
+            writer.Write("BIN\0"u8);
+            writer.Write(_bytes.ToArray());
+            writer.Flush();
+            return result.ToArray();
+        }
+
+        // Empty arrays are not allowed.
+        private JsonObject Trimmed()
+        {
+            foreach (var (name, value) in Root.ToList())
+            {
+                if (value is JsonArray { Count: 0 })
+                {
+                    Root.Remove(name);
+                }
+            }
+
+            return Root;
+        }
+    }
+
+    private static readonly double[] Quad = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0];
+
+    private static Document QuadDocument(int mode = 4, double[]? indices = null, int indexType = 5123)
+    {
+        var document = new Document();
+        var positions = document.Add("VEC3", 5126, 3, Quad);
+        var primitive = new JsonObject { ["attributes"] = new JsonObject { ["POSITION"] = positions }, ["mode"] = mode };
+        if (indices is not null)
+        {
+            primitive["indices"] = document.Add("SCALAR", indexType, 1, indices);
+        }
+
+        document["meshes"].Add(new JsonObject { ["name"] = "quad", ["primitives"] = new JsonArray(primitive) });
+        document["nodes"].Add(new JsonObject { ["name"] = "here", ["mesh"] = 0 });
+        return document;
+    }
+
+    private Mesh Read(string text) => MeshFile.Read(Write(text));
+
+    private string Write(string text, string name = "a.gltf")
+    {
+        File.WriteAllText(_folder[name], text);
+        return _folder[name];
+    }
+
+    [Theory]
+    [InlineData(4, new double[] { 0, 1, 2, 0, 2, 3 }, 5121)]
+    [InlineData(4, new double[] { 0, 1, 2, 0, 2, 3 }, 5123)]
+    [InlineData(4, new double[] { 0, 1, 2, 0, 2, 3 }, 5125)]
+    [InlineData(5, new double[] { 1, 2, 0, 3 }, 5121)]
+    [InlineData(6, new double[] { 0, 1, 2, 3 }, 5123)]
+    [InlineData(6, null, 5123)]
+    public void Primitive_OfAnyModeAndIndices_HasItsTriangles(int mode, double[]? indices, int type)
+    {
+        var mesh = Read(QuadDocument(mode, indices, type).Embedded());
+        Assert.Equal((4, 2), (mesh.VertexCount, mesh.FaceCount));
+        Assert.Equal(Quad, mesh.Positions);
+        // Both triangles face z, wherever they begin.
+        Assert.All(Enumerable.Range(0, 2), face => Assert.Equal(1, Vector.Cross(Edge(face, 0), Edge(face, 1)).Z));
+        Assert.Equal(1, mesh.SurfaceArea());
+
+        Vector Edge(int face, int corner)
+        {
+            var (a, b, c) = mesh.Face(face);
+            return corner == 0 ? b - a : c - b;
+        }
+    }
+
+    [Fact]
+    public void Binary_WithItsBuffer_IsTheMeshOfTheText()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var expected = Read(document.Embedded());
+        File.WriteAllBytes(_folder["a.glb"], document.Binary());
+        Assert.Equal(expected.Positions.ToArray(), MeshFile.Read(_folder["a.glb"]).Positions);
+        Assert.Equal(expected.VertexIndices.ToArray(), MeshFile.Read(_folder["a.glb"]).VertexIndices);
+    }
+
+    [Fact]
+    public void Nodes_WithTransformsAndMirrors_PlaceTheirMeshes()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        document["nodes"].Clear();
+        document["nodes"].Add(JsonNode.Parse("""{"children": [1, 2], "translation": [10, 0, 0], "scale": [2, 2, 2]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0, "rotation": [0, 0, 0.70710678118, 0.70710678118]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0, "matrix": [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,5,1]}"""));
+        document.Root["scenes"] = JsonNode.Parse("""[{"nodes": [0]}]""");
+        document.Root["scene"] = 0;
+        var mesh = Read(document.Embedded());
+        Assert.Equal((8, 4), (mesh.VertexCount, mesh.FaceCount));
+        // A quarter turn about z takes x to y; then twice as large, and moved. The quaternion has twelve digits, in floats.
+        Near.Equal(new Vector(10, 2, 0), mesh.Vertex(1), 1e-6);
+        Near.Equal(new Vector(8, 10, 10) - new Vector(0, 10, 0), mesh.Vertex(5), 1e-6);
+        // The mirrored one still shows its front to z.
+        var (a, b, c) = mesh.Face(2);
+        Assert.True(Vector.Cross(b - a, c - a).Z > 0);
+    }
+
+    [Fact]
+    public void Instancing_PlacesAMeshOncePerInstance()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var translations = document.Add("VEC3", 5126, 3, 1, 0, 0, 2, 0, 0, 3, 0, 0);
+        document.Root["extensionsUsed"] = JsonNode.Parse("""["EXT_mesh_gpu_instancing"]""");
+        document["nodes"][0]!["extensions"] = JsonNode.Parse(string.Create(
+            CultureInfo.InvariantCulture, $"{{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {{\"TRANSLATION\": {translations}}}}}}}"));
+        var mesh = Read(document.Embedded());
+        Assert.Equal((12, 6), (mesh.VertexCount, mesh.FaceCount));
+        Assert.Equal([1.0, 2, 3], new[] { 0, 4, 8 }.Select(vertex => mesh.Vertex(vertex).X));
+    }
+
+    [Fact]
+    public void Sparse_Accessor_HasItsReplacements()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var indices = document.Add("SCALAR", 5123, 1, 2);
+        var values = document.Add("VEC3", 5126, 3, 7, 8, 9);
+        document["accessors"][0]!["sparse"] = JsonNode.Parse(string.Create(CultureInfo.InvariantCulture, $$$"""
+            {"count": 1, "indices": {"bufferView": {{{indices}}}, "componentType": 5123}, "values": {"bufferView": {{{values}}}}}
+            """));
+        document["accessors"].RemoveAt(values);
+        document["accessors"].RemoveAt(indices);
+        Assert.Equal(new Vector(7, 8, 9), Read(document.Embedded()).Vertex(2));
+    }
+
+    [Fact]
+    public void Materials_AndImages_AreThoseOfTheFile()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var coordinates = document.Add("VEC2", 5126, 2, 0, 0, 1, 0, 1, 1, 0, 1);
+        var colours = document.Add("VEC4", 5126, 4, 1, 1, 1, 1, 0.5, 0.25, 0, 1, 0, 0, 0, 1, 1, 1, 1, 1);
+        var attributes = document["meshes"][0]!["primitives"]![0]!["attributes"]!.AsObject();
+        attributes["TEXCOORD_0"] = coordinates;
+        attributes["COLOR_0"] = colours;
+        document["meshes"][0]!["primitives"]![0]!["material"] = 0;
+        var png = new MemoryStream();
+        PngWriter.Write(new PixelImage(2, 1, [255, 0, 0, 255, 0, 255, 0, 255]), png);
+        var view = document.AddImage(png.ToArray());
+        document.Root["images"] = JsonNode.Parse(string.Create(
+            CultureInfo.InvariantCulture, $"[{{\"bufferView\": {view}, \"mimeType\": \"image/png\"}}]"));
+        document.Root["textures"] = JsonNode.Parse("""[{"source": 0}]""");
+        document["materials"].Add(JsonNode.Parse("""
+            {"name": "Brass", "emissiveFactor": [0.5, 0, 0], "pbrMetallicRoughness":
+              {"baseColorFactor": [0.5, 1, 1, 1], "baseColorTexture": {"index": 0}, "metallicFactor": 0.75, "roughnessFactor": 0.25}}
+            """));
+        File.WriteAllBytes(_folder["a.glb"], document.Binary());
+        var file = AssetLoader.Load(_folder["a.glb"]);
+        var model = file.Scene.Objects[0].Model;
+        var material = Assert.Single(model.Materials).Value;
+        Assert.Empty(file.Warnings);
+        Assert.Equal(("Brass", 0.75, 0.25), (material.Name, material.Metalness!.Value, material.Roughness!.Value));
+        Near.Equal(0.7353569, material.Diffuse.Red, 1e-6); // 0.5 of linear light in sRGB, by its curve
+        Assert.Equal(new(0.5, 0, 0), material.Emission);
+        Assert.Equal(png.ToArray(), material.Texture!.Contents);
+        Assert.Equal("Brass", Assert.Single(model.Mesh.Groups).Material);
+        // The first row of an image is at v = 0 in glTF, and at v = 1 here.
+        Assert.Equal((double[])[0, 1, 1, 1, 1, 0, 0, 0], model.Mesh.TextureCoordinates);
+        Near.Equal(0.7353569, model.Mesh.Colours[3], 1e-6);
+    }
+
+    [Fact]
+    public void Text_WithFilesBesideIt_ReadsThemWithinItsFolder()
+    {
+        var (text, buffer) = QuadDocument(4, [0, 1, 2, 0, 2, 3]).Separate("my%20data.bin");
+        Write(text);
+        Assert.Contains("my data.bin\" is not found", Errors.MessageOf(() => MeshFile.Read(_folder["a.gltf"])), StringComparison.Ordinal);
+        File.WriteAllBytes(_folder["my data.bin"], buffer);
+        Assert.Equal(2, MeshFile.Read(_folder["a.gltf"]).FaceCount);
+    }
+
+    [Theory]
+    [InlineData("", "the file is no valid glTF 2.0")]
+    [InlineData("{}", "the file is no valid glTF 2.0")]
+    [InlineData("{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"KHR_draco_mesh_compression\"]}",
+        "the file requires the extension KHR_draco_mesh_compression, which is not read")]
+    public void Fault_IsOneLine(string text, string expected)
+    {
+        var fault = Assert.Throws<SourceException>(() => Read(text)).Diagnostic;
+        Assert.StartsWith(expected, fault.Message, StringComparison.Ordinal);
+        Assert.DoesNotContain('\n', fault.Message);
+    }
+
+    [Fact]
+    public void Skins_AreRefused_AndLinesLeftOut()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        document["meshes"][0]!["primitives"]!.AsArray().Add(JsonNode.Parse("""{"attributes": {"POSITION": 0}, "mode": 3}"""));
+        var file = AssetLoader.Load(Write(document.Embedded()));
+        Assert.Equal("points and lines are not shown: 1 primitives are left out", Assert.Single(file.Warnings).Message);
+        document.Root["skins"] = JsonNode.Parse("""[{"joints": [0]}]""");
+        document["nodes"][0]!["skin"] = 0;
+        Assert.Contains("skins are not read", Assert.Throws<SourceException>(() => Read(document.Embedded())).Message, StringComparison.Ordinal);
+    }
+
+    [Fact]
+    public void Accessor_OfMoreCornersThanTheLimit_IsRefusedBeforeMemoryIsTaken()
+    {
+        var document = QuadDocument();
+        document["accessors"][0] = JsonNode.Parse("""
+            {"componentType": 5126, "count": 2000000000, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0]}
+            """);
+        var before = GC.GetTotalAllocatedBytes();
+        var fault = Assert.Throws<SourceException>(() => Read(document.Embedded())).Diagnostic;
+        Assert.InRange(GC.GetTotalAllocatedBytes() - before, 0, 50_000_000);
+        Assert.Equal("the meshes of the file have more than the limit of 100000000 corners", fault.Message);
+        Assert.True(fault.IsLimitExceeded);
+    }
+
+    [Fact]
+    public void Bytes_ChangedAnywhere_AreReadOrRefused()
+    {
+        var original = QuadDocument(4, [0, 1, 2, 0, 2, 3]).Binary();
+        var random = new Random(20261130);
+        var refused = 0;
+        for (var i = 0; i < 2000; i++)
+        {
+            var changed = original.ToArray();
+            for (var n = random.Next(1, 4); n > 0; n--)
+            {
+                changed[random.Next(changed.Length)] = (byte)random.Next(256);
+            }
+
+            File.WriteAllBytes(_folder["a.glb"], random.Next(10) == 0 ? changed[..random.Next(changed.Length)] : changed);
+            try
+            {
+                Assert.True(MeshFile.Read(_folder["a.glb"]).FaceCount <= 100);
+            }
+            catch (SourceException)
+            {
+                refused++;
+            }
+        }
+
+        Assert.InRange(refused, 500, 1990);
+    }
+}
