@@ -108,7 +108,10 @@ make_image() {
         tree-0[1-8]) draw "$1" "assets/examples/$1.fdo" 360x240 ;;
         tree-09) draw "$1" assets/examples/tree-09.sdo 360x240 ;;
         tree-10) draw "$1" assets/examples/tree-10.sdo 360x240 --time 0.9 ;;
-        gallery | forest) draw "$1" "assets/scenes/$1.sdo" 1280x720 ;;
+        nave) draw "$1" assets/scenes/nave.sdo 640x360 --trace 64 ;;
+        fireflies) draw "$1" assets/scenes/fireflies.sdo 640x360 --trace 24 ;;
+        forest) draw "$1" assets/scenes/forest.sdo 880x495 ;;
+        gallery) draw "$1" "assets/scenes/$1.sdo" 1280x720 ;;
         gradients | palettes) draw "$1" "assets/scenes/$1.sdo" 960x480 ;;
         appendix-b | inside | menger | textured | reef | cathedral | winter | wood | city) draw "$1" "assets/scenes/$1.sdo" 720x405 ;;
         conifer | coral | tower) draw "$1" "assets/scenes/$1.sdo" 480x320 ;;
@@ -154,7 +157,7 @@ make_image() {
 }
 
 all=(
-    forest gallery cathedral reef menger inside appendix-b gradients palettes textured winter chrome agate rowan playground film planet angles
+    forest nave fireflies gallery cathedral reef menger inside appendix-b gradients palettes textured winter chrome agate rowan playground film planet angles
     wood city conifer coral tower flake
     classic-bush classic-context-tree classic-arch classic-synth-tree classic-dragon
     classic-koch classic-jerusalem classic-vicsek classic-cantor classic-pythagoras

@@ -3,9 +3,11 @@ using System.Numerics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Physics;
+using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Render.Cameras;
 using FractalEngine.Tests.Physics;
 using FractalEngine.Tests.Support;
 using Vector = FractalEngine.Core.Maths.Vector;
@@ -209,6 +211,42 @@ public sealed class AssetTests
         {
             Assert.True(new SceneCollider(scene).TryFindClosest(player.Position with { Y = height }, 10, new(), out var closest, out _));
             Near.Equal(height, closest.Distance, 1e-12);
+        }
+    }
+
+    [Fact]
+    public void Planet_ItsPlayer_StandsOnTheTip()
+    {
+        var world = new PhysicsWorld(AssetLoader.Load(Full("assets/scenes/planet.sdo")).Scene);
+        var player = world.Character!;
+        player.IsActive = true;
+        for (var step = 0; step < 120; step++)
+        {
+            world.Step();
+        }
+
+        Assert.True(player.IsGrounded);
+        // It begins on the florets, to the three digits of the file.
+        Assert.True((player.Position - player.Description.Position).Length() < 0.1 * player.Description.Radius, $"{player.Position}");
+    }
+
+    [Theory]
+    [InlineData("chrome")]
+    [InlineData("fireflies")]
+    [InlineData("nave")]
+    [InlineData("planet")]
+    public void Film_ItsCamera_PassesThroughNoSurface(string name)
+    {
+        var scene = AssetLoader.Load(Full($"assets/scenes/{name}.sdo")).Scene;
+        var film = scene.Scene.Film!;
+        var path = new CameraPath(film.Cameras, scene.Scene.Handedness);
+        var rays = RayCaster.For(scene);
+        var frames = (int)(25 * film.Duration);
+        for (var frame = 0; frame < frames; frame++)
+        {
+            var from = path.At(frame / 25.0).Position;
+            var way = path.At((frame + 1) / 25.0).Position - from;
+            Assert.False(way.Length() > 0 && rays.HitsAny(new(from, way), maxDistance: way.Length()), $"frame {frame} at {from}");
         }
     }
 
