@@ -60,7 +60,7 @@ public sealed class ThreeMfExport : SceneExport
             }
         }
 
-        var faces = scene.Sum(static one => one.FaceCount);
+        var faces = scene.Sum(static one => one.DistinctFaceCount);
         var contents = model.ObjectCount == 1 ? "1 object" : FormattableString.Invariant($"{model.ObjectCount} objects");
         return new(isFlat ? contents : $"{contents} for {Core.Maths.DecimalText.FormatApproximately(faces)} faces")
         {
