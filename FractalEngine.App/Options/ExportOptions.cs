@@ -1,5 +1,4 @@
 using System.CommandLine;
-using System.Globalization;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes.Cameras;
@@ -10,7 +9,7 @@ namespace FractalEngine.App.Options;
 /// <summary>The options of <c>export</c> on how much is written, and in which coordinates.</summary>
 internal sealed class ExportOptions
 {
-    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself where a format can keep levels (.3mf).");
+    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf, too.");
 
     private readonly Option<bool> _weld = SharedOptions.Flag(
         "--weld", "Join vertices that coincide, and leave out walls between solids that stand side by side.");
@@ -25,9 +24,11 @@ internal sealed class ExportOptions
     private readonly Option<UpAxis?> _up = WordOption.Single(
         "--up", "The axis that points up (default: z for .stl and .3mf, else y).", ("y", UpAxis.Y), ("z", UpAxis.Z));
 
-    private readonly Option<double?> _unit = LengthOption("--unit", "Length of a scene unit in the file (default: 1mm).");
+    private readonly Option<double?> _unit = NumberOption.Positive(
+        "--unit", "Nmm", "Length of a scene unit in the file (default: 1mm).", unit: "mm");
 
-    private readonly Option<double?> _height = LengthOption("--height", "Height of the whole in the file, instead of --unit.");
+    private readonly Option<double?> _height = NumberOption.Positive(
+        "--height", "Nmm", "Height of the whole in the file, instead of --unit.", unit: "mm");
 
     public void AddTo(Command command) => SharedOptions.AddAll(command, _flat, _weld, _instances, _handed, _up, _unit, _height);
 
@@ -47,25 +48,4 @@ internal sealed class ExportOptions
             UnitLength = result.GetValue(_unit),
             Height = result.GetValue(_height),
         };
-
-    /// <summary>Creates an option for a length above 0, such as 80mm or 80.</summary>
-    private static Option<double?> LengthOption(string name, string description) => new(name)
-    {
-        Description = description,
-        HelpName = "Nmm",
-        CustomParser = result =>
-        {
-            var text = result.Tokens[0].Value;
-            if (double.TryParse(
-                    text.EndsWith("mm", StringComparison.Ordinal) ? text[..^2] : text, NumberStyles.Float, CultureInfo.InvariantCulture,
-                    out var length)
-                && length > 0 && double.IsFinite(length))
-            {
-                return length;
-            }
-
-            result.AddError($"{name}: expected a length above 0, such as 80mm");
-            return null;
-        },
-    };
 }

@@ -7,7 +7,7 @@ namespace FractalEngine.Core.Fractals;
 /// <summary>Lists the instances of fractals one after another: all of them, or as few large ones as are wanted.</summary>
 public static class InstanceEnumeration
 {
-    /// <summary>Lists the distinct instances of a fractal that shows one mesh, as <see cref="FractalGenerator.ExpandTinted"/> does.</summary>
+    /// <summary>Lists the distinct instances of a fractal of one mesh, as <see cref="FractalGenerator.ExpandTinted"/> does.</summary>
     /// <param name="fractal">Fractal with finitely many levels.</param>
     /// <param name="maxInstances">Maximum number of instances.</param>
     /// <param name="hasPaths">True to tell the paths of instances, where these are not too many to be compared.</param>
@@ -17,20 +17,19 @@ public static class InstanceEnumeration
     /// Where no two instances can coincide, and where each way counts, they are found while they are enumerated, and memory does not grow
     /// with their number. Elsewhere there is a list, see <see cref="FractalGenerator.ExpandTinted"/>.
     /// </remarks>
-    public static (IEnumerable<MeshInstance> Instances, long Count) Enumerate(this Fractal fractal, long maxInstances, bool hasPaths = false)
+    public static (IEnumerable<MeshInstance> Instances, long Count) Enumerate(
+        this Fractal fractal, long maxInstances, bool hasPaths = false)
     {
         ArgumentNullException.ThrowIfNull(fractal);
-        if (fractal.Description is { Composition: Composition.Affine, IsInfinite: false } description
-            && (description.CountsWays || (fractal.InstanceCount <= maxInstances && DistinctInstances.AreProvedDistinct(fractal)))
-            && FindHierarchy(fractal) is { } hierarchy)
+        var countsWays = fractal.Description.CountsWays;
+        if ((countsWays || (fractal.InstanceCount <= maxInstances && DistinctInstances.AreProvedDistinct(fractal)))
+            && fractal.FindHierarchy() is { } hierarchy)
         {
-            var count = description.CountsWays
-                ? StateExpansion.Walk(hierarchy, maxInstances).LongCount() : (long)fractal.InstanceCount!.Value;
+            var count = countsWays ? StateExpansion.Walk(hierarchy, maxInstances).LongCount() : (long)fractal.InstanceCount!.Value;
             return (StateExpansion.Walk(hierarchy, maxInstances, hasPaths), count);
         }
 
-        if (hasPaths && fractal.Description is { Composition: Composition.Affine, IsInfinite: false }
-            && DistinctInstances.CountAtMost(fractal, budget: 0) <= maxInstances && FindHierarchy(fractal) is { } levels)
+        if (hasPaths && DistinctInstances.CountAtMost(fractal, budget: 0) <= maxInstances && fractal.FindHierarchy() is { } levels)
         {
             var list = ListDistinct(fractal, levels, maxInstances);
             return (list, list.Count);
@@ -41,8 +40,8 @@ public static class InstanceEnumeration
     }
 
     /// <summary>
-    /// Lists so many instances of fractals that share a space: the largest sub-fractal is replaced by what it consists of, until there would
-    /// be more. A base mesh stands for each that is left.
+    /// Lists so many instances of fractals that share a space: the largest sub-fractal is replaced by what it consists of, until there
+    /// would be more. A base mesh stands for each that is left.
     /// </summary>
     /// <param name="fractals">Fractals in affine composition, perhaps infinite, each with the map to the common space.</param>
     /// <param name="maxInstances">Maximum number of instances; there are at least as many as fractals.</param>
@@ -105,8 +104,7 @@ public static class InstanceEnumeration
         {
             if (!images.TryAdd(instance.Map, maxInstances))
             {
-                throw new FractalLimitException(
-                    $"the fractal has more than the limit of {DecimalText.FormatApproximately(maxInstances)} instances");
+                throw new FractalLimitException($"the {capacity} instances of the fractal take too long to compare");
             }
 
             if (images.Count > list.Count)
@@ -116,18 +114,5 @@ public static class InstanceEnumeration
         }
 
         return list;
-    }
-
-    private static FractalHierarchy? FindHierarchy(Fractal fractal)
-    {
-        try
-        {
-            return fractal.HierarchyBySets;
-        }
-        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
-        {
-            // Instances need no bounds: they are listed then.
-            return null;
-        }
     }
 }

@@ -7,8 +7,8 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Fractals;
 
 /// <summary>
-/// The sub-fractals of finite fractals, each once, as a graph without mirrors: what a map mirrors is an instance of another node, the mirror
-/// image. So it grows with the levels and maps, not with the instances.
+/// The sub-fractals of finite fractals, each once, as a graph without mirrors: what a map mirrors is an instance of another node, its
+/// mirror image. So it grows with the levels and maps, not with the instances.
 /// </summary>
 /// <param name="fractal">A finite fractal in affine composition.</param>
 /// <param name="maxNodes">Maximum number of nodes.</param>
@@ -64,8 +64,8 @@ public sealed class LevelGraph(Fractal fractal, int maxNodes)
     {
         ArgumentNullException.ThrowIfNull(fractal);
         ArgumentCheck.Require(
-            fractal.Description is { IsInfinite: false, Composition: Composition.Affine }, "expected a finite fractal in affine composition",
-            nameof(fractal));
+            fractal.Description is { IsInfinite: false, Composition: Composition.Affine },
+            "expected a finite fractal in affine composition", nameof(fractal));
         return fractal;
     }
 

@@ -52,11 +52,8 @@ internal static class StateExpansion
     }
 
     /// <summary>The whole fractal, as a place to go down from.</summary>
-    public static (LevelState State, MeshInstance Part) Start(FractalHierarchy hierarchy, bool hasPaths = false)
-    {
-        var path = (MapPath?)null;
-        return Resolve(hierarchy, hierarchy.Top, new(0, AffineMap.Identity, Tint.None), path, hasPaths);
-    }
+    public static (LevelState State, MeshInstance Part) Start(FractalHierarchy hierarchy, bool hasPaths = false) =>
+        Resolve(hierarchy, hierarchy.Top, new(0, AffineMap.Identity, Tint.None), null, hasPaths);
 
     /// <summary>Goes down an edge, and on as far as places decide.</summary>
     /// <param name="hierarchy">One level for each set.</param>

@@ -1,13 +1,11 @@
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Scenes;
 
-/// <summary>Area and volume of all that a scene shows, and whether its meshes are closed. What overlaps counts by itself each time.</summary>
+/// <summary>Area and volume of all that a scene shows, and whether its meshes are closed. What overlaps counts each time.</summary>
 /// <param name="Area">
 /// Scene units²; null where it is not known: of what is infinite or componentwise, and of fractals whose maps are not all similarities.
 /// </param>
@@ -45,14 +43,14 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
 
     private static double? MeasureArea(Model model, Matrix linear) => model is not FractalModel { Fractal: var fractal }
         ? FractalGenerator.Flatten(model.Mesh, [new(linear, Vector.Zero)]).SurfaceArea()
-        : linear.IsSimilarity() && FindLevels(fractal) is { HasOnlySimilarities: true } hierarchy
+        : linear.IsSimilarity() && fractal.FindHierarchy() is { HasOnlySimilarities: true } hierarchy
             ? linear.V1.LengthSquared() * LevelSums.Of(
                 hierarchy, index => hierarchy.BaseMeshes[index].SurfaceArea(), static (area, child) => area * child.ScaleSquared)
             : null;
 
     private static double? MeasureVolume(Model model) => model is not FractalModel { Fractal: var fractal }
         ? VolumeOf(model.Mesh)
-        : FindLevels(fractal) is { } hierarchy
+        : fractal.FindHierarchy() is { } hierarchy
             ? LevelSums.Of(
                 hierarchy, index => VolumeOf(hierarchy.BaseMeshes[index]),
                 static (volume, child) => volume * Math.Abs(child.Map.Linear.Determinant()))
@@ -61,18 +59,4 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
     /// <summary>The volume within a closed mesh, also one that is wound inwards.</summary>
     private static double VolumeOf(Mesh mesh) => mesh.FaceCount == 0 ? 0 : Math.Abs(
         MassProperties.Of(Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face), mesh.UsedBounds.Centre).Volume);
-
-    /// <summary>The levels of a fractal that can be summed up; null for others.</summary>
-    private static FractalHierarchy? FindLevels(Fractal fractal)
-    {
-        try
-        {
-            return fractal.Description is { IsInfinite: false, Composition: Composition.Affine } ? fractal.Hierarchy : null;
-        }
-        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
-        {
-            // What has no bounds has no measures either.
-            return null;
-        }
-    }
 }

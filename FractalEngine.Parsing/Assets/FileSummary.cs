@@ -53,11 +53,8 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("area", format(surface.Area)),
             ("volume", format(surface.Volume)),
             ("closed", format(surface.Open is null)),
-            .. surface.Open is not { } open ? [] : new (string Name, string Value)[]
-            {
-                ("openMesh", format(open.Mesh)),
-                ("openEdge", format(open.Edge)),
-            },
+            ("openMesh", format(surface.Open?.Mesh)),
+            ("openEdge", format(surface.Open?.Edge)),
             ("storageBytes", format(file.StorageBytes)),
             ("loadMilliseconds", FormatTime(loadTime, format)),
             ("prepareMilliseconds", FormatTime(prepareTime, format)),

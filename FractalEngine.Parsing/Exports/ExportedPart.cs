@@ -28,18 +28,11 @@ public sealed record ExportedPart(PlacedModel Placed, int ObjectIndex, int MeshI
     public int PaletteIndex => ObjectIndex + MeshIndex;
 
     /// <summary>The name of the object: its own, or that of its file.</summary>
-    public string ObjectName => NameOf(Placed);
+    public string ObjectName => Placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(Placed.Declaration.DisplayName);
 
     /// <summary>The groups of the mesh, or one for all faces where groups that were made in code leave faces out.</summary>
     public IReadOnlyList<MeshGroup> Groups => Mesh.Groups.Sum(static group => group.FaceCount) == Mesh.FaceCount
         ? Mesh.Groups : [new(0, Mesh.FaceCount, "", "", "", 0)];
-
-    /// <summary>The name of an object: its own, or that of its file.</summary>
-    public static string NameOf(PlacedModel placed)
-    {
-        ArgumentNullException.ThrowIfNull(placed);
-        return placed.Declaration.Name ?? Path.GetFileNameWithoutExtension(placed.Declaration.DisplayName);
-    }
 
     /// <summary>The name of the material of faces of an instance, which is added where maps make a new one; empty for none.</summary>
     /// <param name="materials">Those of the scene; null where they are not written.</param>
@@ -53,4 +46,12 @@ public sealed record ExportedPart(PlacedModel Placed, int ObjectIndex, int MeshI
     /// <param name="group">Name of the material in the mesh; empty for none.</param>
     /// <param name="tint">What maps mix into the colour of the instance.</param>
     public Colour ColourOf(string group, Tint tint) => SceneMaterials.ColourOf(Placed, PaletteIndex, group, tint);
+
+    /// <summary>Rounds a colour to a byte for each component, sRGB.</summary>
+    public static (byte Red, byte Green, byte Blue) ToBytes(Colour colour)
+    {
+        return (ToByte(colour.Red), ToByte(colour.Green), ToByte(colour.Blue));
+
+        static byte ToByte(double component) => (byte)Math.Round(byte.MaxValue * Math.Clamp(component, 0, 1));
+    }
 }

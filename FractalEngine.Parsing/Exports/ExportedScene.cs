@@ -68,12 +68,17 @@ public sealed class ExportedScene
 
     private ExportedPart List(PlacedModel placed, int objectIndex, int meshIndex, AffineMap frame)
     {
-        var toFile = frame * placed.ObjectToWorld;
         var (instances, count) = placed.Model is FractalModel { Fractal: var fractal }
             ? Enumerate(placed.Model.Name, fractal)
             : ([new MeshInstance(meshIndex, AffineMap.Identity, Tint.None)], 1);
-        return new(
-            placed, objectIndex, meshIndex, count, instances.Select(instance => instance with { Map = toFile * instance.Map }));
+        return Create(placed, objectIndex, meshIndex, frame, count, instances);
+    }
+
+    private static ExportedPart Create(
+        PlacedModel placed, int objectIndex, int meshIndex, AffineMap frame, long count, IEnumerable<MeshInstance> instances)
+    {
+        var toFile = frame * placed.ObjectToWorld;
+        return new(placed, objectIndex, meshIndex, count, instances.Select(instance => instance with { Map = toFile * instance.Map }));
     }
 
     private (IEnumerable<MeshInstance> Instances, long Count) Enumerate(string name, Fractal fractal)
@@ -107,13 +112,8 @@ public sealed class ExportedScene
             static one => one.Instance);
         return
         [
-            .. scene.Objects.SelectMany((placed, index) => placed.Parts.Select((part, mesh) =>
-            {
-                var toFile = frame * placed.ObjectToWorld;
-                return new ExportedPart(
-                    part, index, mesh, found[(index, mesh)].Count(),
-                    found[(index, mesh)].Select(instance => instance with { Map = toFile * instance.Map }));
-            })),
+            .. scene.Objects.SelectMany((placed, index) => placed.Parts.Select(
+                (part, mesh) => Create(part, index, mesh, frame, found[(index, mesh)].Count(), found[(index, mesh)]))),
         ];
     }
 }

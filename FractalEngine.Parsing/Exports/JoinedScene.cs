@@ -30,7 +30,7 @@ public sealed class JoinedScene
     /// <summary>Joins all instances of a scene.</summary>
     /// <param name="scene">Scene whose fractals are finite, unless the settings say how many instances there may be.</param>
     /// <param name="settings">The limits.</param>
-    /// <param name="isWelded">Whether vertices that coincide become one, and walls between solids go, see <see cref="MeshWelding"/>.</param>
+    /// <param name="isWelded">Whether vertices that coincide are joined and walls between solids go, see <see cref="MeshWelding"/>.</param>
     /// <exception cref="FractalLimitException">The scene has more faces than allowed, or than one mesh can hold.</exception>
     public static LoadedScene Of(LoadedScene scene, ExportSettings settings, bool isWelded)
     {
@@ -61,7 +61,7 @@ public sealed class JoinedScene
         return LoadedScene.Of(new()
         {
             Handedness = scene.Scene.Handedness,
-            Objects = [new(model) { Name = scene.Objects is [var only] ? ExportedPart.NameOf(only) : "scene" }],
+            Objects = [new(model) { Name = scene.Objects.Length == 1 ? exported.Parts[0].ObjectName : "scene" }],
         });
     }
 
@@ -69,9 +69,9 @@ public sealed class JoinedScene
     public static string Describe(LoadedScene welded)
     {
         ArgumentNullException.ThrowIfNull(welded);
-        var edges = SurfaceEdges.Of(welded.Objects[0].Model.Mesh);
-        var closed = edges.OpenCount == 0 ? "closed" : FormattableString.Invariant($"{edges.OpenCount} open edges, one at {edges.FirstOpen}");
-        return edges.TouchingCount == 0 ? closed : FormattableString.Invariant($"{closed}, {edges.TouchingCount} edges where surfaces touch");
+        var (open, touching, first) = SurfaceEdges.Of(welded.Objects[0].Model.Mesh);
+        var closed = open == 0 ? "closed" : FormattableString.Invariant($"{open} open edges, one at {first}");
+        return touching == 0 ? closed : FormattableString.Invariant($"{closed}, {touching} edges where surfaces touch");
     }
 
     private static Material WithoutTextures(Material material) => material with

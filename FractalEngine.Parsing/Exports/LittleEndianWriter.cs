@@ -34,16 +34,15 @@ internal sealed class LittleEndianWriter(Stream stream)
     /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
     public void WriteSingle(Vector vector)
     {
-        var (x, y, z) = ((float)vector.X, (float)vector.Y, (float)vector.Z);
-        if (!float.IsFinite(x + y + z) && !(float.IsFinite(x) && float.IsFinite(y) && float.IsFinite(z)))
+        if (!(vector.MaxAbsComponent() <= float.MaxValue))
         {
             throw new FractalEngineException($"a coordinate is beyond the range of a float: {vector}");
         }
 
         var bytes = Reserve(3 * sizeof(float));
-        BinaryPrimitives.WriteSingleLittleEndian(bytes, x);
-        BinaryPrimitives.WriteSingleLittleEndian(bytes[sizeof(float)..], y);
-        BinaryPrimitives.WriteSingleLittleEndian(bytes[(2 * sizeof(float))..], z);
+        BinaryPrimitives.WriteSingleLittleEndian(bytes, (float)vector.X);
+        BinaryPrimitives.WriteSingleLittleEndian(bytes[sizeof(float)..], (float)vector.Y);
+        BinaryPrimitives.WriteSingleLittleEndian(bytes[(2 * sizeof(float))..], (float)vector.Z);
     }
 
     /// <summary>Writes a vector as three doubles.</summary>

@@ -26,19 +26,11 @@ public sealed class PlyExport : SceneExport
 
         var hasColours = exported.Parts.Any(static part => part.HasColour);
         var writer = new LittleEndianWriter(stream);
-        writer.WriteBytes(Encoding.ASCII.GetBytes(FormattableString.Invariant($"""
-            ply
-            format binary_little_endian 1.0
-            comment made by FractalEngine
-            element vertex {vertexCount}
-            property double x
-            property double y
-            property double z
-            {(hasColours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")}element face {exported.FaceCount}
-            property list uchar int vertex_indices
-            end_header
-
-            """).ReplaceLineEndings("\n")));
+        writer.WriteBytes(Encoding.ASCII.GetBytes(
+            FormattableString.Invariant($"ply\nformat binary_little_endian 1.0\ncomment FractalEngine\nelement vertex {vertexCount}\n")
+            + "property double x\nproperty double y\nproperty double z\n"
+            + (hasColours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")
+            + FormattableString.Invariant($"element face {exported.FaceCount}\nproperty list uchar int vertex_indices\nend_header\n")));
         foreach (var (part, vertices) in parts)
         {
             WriteVertices(part, vertices, hasColours, writer);

@@ -4,7 +4,7 @@ using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Exports.Ply;
 
-/// <summary>The vertices of a mesh as a PLY file has them: each with one colour, so that it is there once for each group it is in.</summary>
+/// <summary>The vertices of a mesh as a PLY file has them: each with one colour, so that it is there for each group it is in.</summary>
 internal sealed class PlyVertices
 {
     private readonly ExportedPart _part;
@@ -55,9 +55,7 @@ internal sealed class PlyVertices
                 colour = new Colour(red * tintRed, green * tintGreen, blue * tintBlue).FromLinear();
             }
 
-            (colours[3 * i], colours[(3 * i) + 1], colours[(3 * i) + 2]) = (ToByte(colour.Red), ToByte(colour.Green), ToByte(colour.Blue));
+            (colours[3 * i], colours[(3 * i) + 1], colours[(3 * i) + 2]) = ExportedPart.ToBytes(colour);
         }
     }
-
-    private static byte ToByte(double component) => (byte)Math.Round(byte.MaxValue * Math.Clamp(component, 0, 1));
 }

@@ -14,18 +14,14 @@ public sealed class ThreeMfExport : SceneExport
     private const string ModelPath = "3D/3dmodel.model";
 
     private const string ContentTypes = """
-        <?xml version="1.0" encoding="UTF-8"?>
         <Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
         <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
-        <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
-        </Types>
+        <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
         """;
 
     private const string Relationships = $"""
-        <?xml version="1.0" encoding="UTF-8"?>
         <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
-        <Relationship Target="/{ModelPath}" Id="model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
-        </Relationships>
+        <Relationship Target="/{ModelPath}" Id="model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
         """;
 
     // The earliest that archives can tell, so that the same scene always gives the same bytes.

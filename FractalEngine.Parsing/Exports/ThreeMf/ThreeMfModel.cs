@@ -1,5 +1,5 @@
-using System.Globalization;
-using System.Xml;
+using System.Collections.Immutable;
+using System.Text;
 using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
@@ -10,7 +10,7 @@ using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Parsing.Exports.ThreeMf;
 
-/// <summary>The model of a 3MF file (core specification 1.3, §3–5): an object for each part of a fractal's levels, and what is built.</summary>
+/// <summary>The model of a 3MF file (core specification, §3–5): an object for each part of a fractal's levels, and what stands.</summary>
 internal sealed class ThreeMfModel
 {
     private const string Namespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
@@ -21,11 +21,12 @@ internal sealed class ThreeMfModel
     // The materials are the first resource, and objects follow.
     private const int FirstId = 2;
 
-    private readonly List<ThreeMfObject> _objects = [];
+    // Each a mesh, perhaps as its mirror image, or components: other objects by their numbers, each with the map to this one.
+    private readonly List<(ExportedPart? Part, bool IsMirrored, ImmutableArray<(int Object, AffineMap Map)> Components)> _objects = [];
     private readonly List<(int Object, AffineMap Map)> _items = [];
     private readonly HashSet<Mesh> _checked = new(ReferenceEqualityComparer.Instance);
     private readonly Dictionary<(Model Model, Colour? Colour, bool IsMirrored), int?> _known = [];
-    private readonly List<string> _colours = [];
+    private readonly Dictionary<string, int> _colours = [];
     private readonly bool _hasColours;
 
     /// <summary>Collects the objects of a scene.</summary>
@@ -55,42 +56,38 @@ internal sealed class ThreeMfModel
     /// <summary>Number of objects, components among them.</summary>
     public int ObjectCount => _objects.Count;
 
-    /// <summary>Writes the model as XML.</summary>
+    /// <summary>Writes the model as XML, all of whose values are numbers.</summary>
     public void Write(Stream stream)
     {
-        using var xml = XmlWriter.Create(stream, new() { CloseOutput = false });
-        xml.WriteStartElement("model", Namespace);
-        xml.WriteAttributeString("unit", "millimeter");
-        xml.WriteStartElement("resources", Namespace);
-        var meshes = _objects.Select(one => one.Part is null ? null : new ThreeMfMesh(one.Part, one.IsMirrored, _hasColours ? _colours : null))
-            .ToArray();
-        WriteColours(xml);
+        using var text = new StreamWriter(stream, new UTF8Encoding(false), bufferSize: 1 << 16, leaveOpen: true);
+        text.Write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+        text.Write($"<model unit=\"millimeter\" xmlns=\"{Namespace}\"><resources>\n");
+        var meshes = _objects.Select(
+            one => one.Part is null ? null : new ThreeMfMesh(one.Part, one.IsMirrored, _hasColours ? _colours : null)).ToArray();
+        var colours = _colours.Keys.Select(static colour => $"<base name=\"{colour}\" displaycolor=\"{colour}\"/>\n");
+        text.Write(_colours.Count == 0 ? "" : FormattableString.Invariant(
+            $"<basematerials id=\"{ThreeMfMesh.MaterialsId}\">\n{string.Concat(colours)}</basematerials>\n"));
         foreach (var (index, one) in _objects.Index())
         {
-            xml.WriteStartElement("object", Namespace);
-            xml.WriteAttributeString("id", Format(index + FirstId));
+            text.Write(FormattableString.Invariant($"<object id=\"{index + FirstId}\"{meshes[index]?.Attributes}>"));
             if (meshes[index] is { } mesh)
             {
-                mesh.Write(xml, Namespace);
+                mesh.Write(text);
             }
             else
             {
-                xml.WriteStartElement("components", Namespace);
-                WritePlaces(xml, "component", one.Components);
-                xml.WriteEndElement();
+                text.Write("<components>\n");
+                WritePlaces(text, "component", one.Components);
+                text.Write("</components>");
             }
 
-            xml.WriteEndElement();
+            text.Write("</object>\n");
         }
 
-        xml.WriteEndElement();
-        xml.WriteStartElement("build", Namespace);
-        WritePlaces(xml, "item", _items);
-        xml.WriteEndElement();
-        xml.WriteEndElement();
+        text.Write("</resources><build>\n");
+        WritePlaces(text, "item", _items);
+        text.Write("</build></model>\n");
     }
-
-    private static string Format(int number) => number.ToString(CultureInfo.InvariantCulture);
 
     /// <summary>Adds what a model consists of, or its mirror image; null where it has no faces.</summary>
     private int? Add(Model model, ExportedPart[] parts, bool isMirrored)
@@ -119,7 +116,7 @@ internal sealed class ThreeMfModel
             }
 
             numbers.Add(_objects.Count);
-            _objects.Add(new(null, false, [.. node.Children.Select(child => (numbers[child.Node], child.Map))]));
+            _objects.Add((null, false, [.. node.Children.Select(child => (numbers[child.Node], child.Map))]));
         }
 
         return root is { } top ? numbers[top] : null;
@@ -133,45 +130,18 @@ internal sealed class ThreeMfModel
                 $"{name} is not closed, as .3mf files need meshes to be: an edge at {edge} has no face beyond it");
         }
 
-        _objects.Add(new(part, isMirrored, []));
+        _objects.Add((part, isMirrored, []));
         return _objects.Count - 1;
     }
 
-    private void WriteColours(XmlWriter xml)
-    {
-        if (_colours.Count == 0)
-        {
-            return;
-        }
-
-        xml.WriteStartElement("basematerials", Namespace);
-        xml.WriteAttributeString("id", Format(ThreeMfMesh.MaterialsId));
-        foreach (var colour in _colours)
-        {
-            xml.WriteStartElement("base", Namespace);
-            xml.WriteAttributeString("name", colour);
-            xml.WriteAttributeString("displaycolor", colour);
-            xml.WriteEndElement();
-        }
-
-        xml.WriteEndElement();
-    }
-
-    private static void WritePlaces(XmlWriter xml, string element, IEnumerable<(int Object, AffineMap Map)> places)
+    private static void WritePlaces(TextWriter text, string element, IEnumerable<(int Object, AffineMap Map)> places)
     {
         foreach (var (index, map) in places)
         {
-            xml.WriteStartElement(element, Namespace);
-            xml.WriteAttributeString("objectid", Format(index + FirstId));
-            if (map != AffineMap.Identity)
-            {
-                var ((a, b, c), (d, e, f), (g, h, i)) = (map.Linear.V1, map.Linear.V2, map.Linear.V3);
-                var (x, y, z) = map.Translation;
-                xml.WriteAttributeString("transform", FormattableString.Invariant(
-                    $"{a:R} {b:R} {c:R} {d:R} {e:R} {f:R} {g:R} {h:R} {i:R} {x:R} {y:R} {z:R}"));
-            }
-
-            xml.WriteEndElement();
+            var ((a, b, c), (d, e, f), (g, h, i)) = (map.Linear.V1, map.Linear.V2, map.Linear.V3);
+            var (x, y, z) = map.Translation;
+            text.Write(FormattableString.Invariant($"<{element} objectid=\"{index + FirstId}\" transform=\"{a:R} {b:R} {c:R} "));
+            text.Write(FormattableString.Invariant($"{d:R} {e:R} {f:R} {g:R} {h:R} {i:R} {x:R} {y:R} {z:R}\"/>\n"));
         }
     }
 }

@@ -57,8 +57,8 @@ public sealed class ExportFormatTests : IDisposable
 
     [Theory]
     [InlineData("--unit and --height both say how long a scene unit is: choose one of them", "--unit", "1", "--height", "2")]
-    [InlineData("--height: expected a length above 0, such as 80mm", "--height", "0mm")]
-    [InlineData("--unit: expected a length above 0, such as 80mm", "--unit", "8cm")]
+    [InlineData("--height: expected a number above 0", "--height", "0mm")]
+    [InlineData("--unit: expected a number above 0", "--unit", "8cm")]
     public void Options_ThatMakeNoSense_AreRefused(string message, params string[] options)
     {
         Assert.StartsWith($"error: {message}", Export(2, "stl", "menger-3", options), StringComparison.Ordinal);

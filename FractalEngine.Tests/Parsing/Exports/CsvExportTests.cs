@@ -42,7 +42,8 @@ public class CsvExportTests
             (RenderScenes.Menger(1), Transformation.Identity, null));
         var text = Encoding.UTF8.GetString(ExportedFile.Write(new CsvExport(), scene));
         Assert.StartsWith(
-            $"{CsvExport.Header}\n\"a,b\",,\"a,b.obj\",1,0,0,1,0,1,0,2,0,0,1,3,0.1,0.2,0.3\nmenger,0,mesh 0,", text, StringComparison.Ordinal);
+            $"{CsvExport.Header}\n\"a,b\",,\"a,b.obj\",1,0,0,1,0,1,0,2,0,0,1,3,0.1,0.2,0.3\nmenger,0,mesh 0,", text,
+            StringComparison.Ordinal);
         Assert.Equal(22, text.Count(static letter => letter == '\n'));
     }
 

@@ -32,7 +32,8 @@ public class FlatExportTests
             new() { Handedness = Handedness.Right }, (new FractalModel(fractal), placement, null));
         var expected = scene.Objects.Flatten(100_000);
         // Floats can't tell what is small from what is far away.
-        if (expected.SurfaceArea().Equals(0) || (ending == ".stl" && (expected.UsedBounds.Minimum.MaxAbsComponent() > 20 * expected.UsedBounds.Size.MaxAbsComponent()
+        if (expected.SurfaceArea().Equals(0) || (ending == ".stl" && (
+            expected.UsedBounds.Minimum.MaxAbsComponent() > 20 * expected.UsedBounds.Size.MaxAbsComponent()
             || expected.SurfaceArea() < 1e-4 * expected.UsedBounds.Diagonal * expected.UsedBounds.Diagonal)))
         {
             return false;
@@ -113,7 +114,7 @@ public class FlatExportTests
         var bytes = ExportedFile.Write(
             new PlyExport(), RenderScenes.Scene(new(), (new MeshModel(Samples.Triangle), Transformation.Identity, null)));
         Assert.StartsWith(
-            "ply\nformat binary_little_endian 1.0\ncomment made by FractalEngine\nelement vertex 3\nproperty double x\nproperty double y\n"
+            "ply\nformat binary_little_endian 1.0\ncomment FractalEngine\nelement vertex 3\nproperty double x\nproperty double y\n"
             + "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n",
             Encoding.ASCII.GetString(bytes), StringComparison.Ordinal);
         Assert.Empty(ExportedFile.Read(".ply", bytes).Colours);

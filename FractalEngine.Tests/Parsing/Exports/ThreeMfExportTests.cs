@@ -77,7 +77,8 @@ public class ThreeMfExportTests
         var scene = RenderScenes.Scene(
             new(), (model, Transformation.Identity, new(0, 0, 1)), (model, Samples.Move(9, 0, 0), Colour.White));
         var faces = ExportedFile.ReadThreeMf(ExportedFile.Write(new ThreeMfExport(), scene));
-        Assert.Equal(["#000000", "#0000FF", "#0000FF", "#0000FF", "#FF0000", "#FFFFFF", "#FFFFFF", "#FFFFFF"], faces.Select(face => face.Colour));
+        Assert.Equal(
+            ["#000000", "#0000FF", "#0000FF", "#0000FF", "#FF0000", "#FFFFFF", "#FFFFFF", "#FFFFFF"], faces.Select(face => face.Colour));
     }
 
     [Fact]
