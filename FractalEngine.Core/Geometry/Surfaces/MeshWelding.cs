@@ -10,7 +10,7 @@ public static class MeshWelding
     // Of areas of sides that coincide, relative.
     private const double AreaTolerance = 1e-6;
 
-    /// <summary>Welds a mesh.</summary>
+    /// <summary>Welds a mesh of solids side by side.</summary>
     /// <param name="mesh">Mesh of many parts, of which positions, faces and groups are kept.</param>
     /// <param name="sides">For each face the number of the flat side that it belongs to, as <see cref="FindSides"/> gives them.</param>
     /// <param name="tolerance">Largest distance of vertices that coincide, scene units, above 0.</param>
