@@ -9,15 +9,19 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports;
+using FractalEngine.Parsing.Exports.Csv;
+using FractalEngine.Parsing.Exports.Ply;
+using FractalEngine.Parsing.Exports.Stl;
+using FractalEngine.Parsing.Exports.ThreeMf;
 using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
 
-/// <summary>The command <c>export FILE --output X.obj</c>, which expands a file into one flat mesh.</summary>
+/// <summary>The command <c>export FILE --output X.obj</c>, which writes a file for other programs, fractals expanded.</summary>
 internal static class ExportCommand
 {
     // Beside OBJ, which has a file for its materials.
-    private static readonly ImmutableArray<SceneExport> Formats = [];
+    private static readonly ImmutableArray<SceneExport> Formats = [new PlyExport(), new StlExport(), new ThreeMfExport(), new CsvExport()];
 
     private static string Endings { get; } = string.Join('|', [".obj", .. Formats.Select(static format => format.Ending)]);
 
@@ -27,22 +31,26 @@ internal static class ExportCommand
         var output = SharedOptions.OutputOption(Endings, "File to write; its ending says the format.");
         var depth = NumberOption.Integer("--depth", "N", 0, int.MaxValue, "Recursion depth, overriding the fractal's file.");
         var noMaterials = SharedOptions.Flag("--no-materials", "Write no material file (.mtl) beside the mesh.");
+        var frame = new ExportOptions();
         var report = new ReportOptions();
         var command = new DocumentedCommand(
-            "export", "Write all faces of FILE as one flat mesh, with fractals expanded.",
+            "export", "Write all that FILE shows for other programs, with fractals expanded.",
             "export assets/fractals/menger-3.fdo --output out/menger.obj", "export assets/fractals/tree.fdo --depth 3 --output -")
         {
             output, depth, noMaterials,
         };
+        frame.AddTo(command);
         shared.AddTo(command);
         report.AddTo(command);
         command.SetAction(result => Run(
             result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
-            result.GetRequiredValue(output), !result.GetValue(noMaterials), report.Begin(result)));
+            result.GetRequiredValue(output), !result.GetValue(noMaterials), frame.SettingsOf(result), frame.IsWelded(result),
+            report.Begin(result)));
         return command;
     }
 
-    private static int Run(string path, LoadOptions options, string output, bool hasMaterials, WrittenReport report)
+    private static int Run(
+        string path, LoadOptions options, string output, bool hasMaterials, ExportSettings settings, bool isWelded, WrittenReport report)
     {
         if (options.Depth > FractalLimits.Depth.Value)
         {
@@ -56,11 +64,20 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
+        var scene = file.Scene;
+        var remark = "";
+        if (isWelded)
+        {
+            scene = report.Measure("weld", () => JoinedScene.Of(scene, settings, isWelded: true));
+            settings = settings with { MaxInstances = null };
+            remark = $", {JoinedScene.Describe(scene)}";
+        }
+
         if (Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase)) is { } format)
         {
             ExportSummary? summary = null;
-            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, new(), stream)));
-            report.Written(output, summary!.Contents);
+            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(scene, settings, stream)));
+            report.Written(output, summary!.Contents + remark);
             foreach (var loss in summary.Losses)
             {
                 Console.Error.WriteLine(DisplayText.Escape($"{output}: warning: {loss}"));
@@ -70,22 +87,22 @@ internal static class ExportCommand
         }
 
         var faceCount = 0L;
-        var materials = hasMaterials ? ExportedMaterials.For(file.Scene, output) : null;
+        var materials = hasMaterials ? ExportedMaterials.For(scene, output) : null;
         report.Measure("write", () =>
         {
             if (materials is null)
             {
-                OutputFile.Write(output, stream => faceCount = ObjSceneWriter.Write(file.Scene, stream, FractalLimits.ExportedFaces.Value));
+                OutputFile.Write(output, stream => faceCount = ObjSceneWriter.Write(scene, stream, settings, null, ""));
             }
             else
             {
                 OutputFile.WritePair(
                     materials.Path, materials.Write,
                     output, stream => faceCount = ObjSceneWriter.Write(
-                        file.Scene, stream, FractalLimits.ExportedFaces.Value, materials.Materials, materials.Name));
+                        scene, stream, settings, materials.Materials, materials.Name));
             }
         });
-        var faces = faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces");
+        var faces = (faceCount == 1 ? "1 face" : FormattableString.Invariant($"{faceCount} faces")) + remark;
         report.Written(output, materials is null ? faces : $"{faces}, {materials.Describe()}");
         materials?.WarnOfOutsideTextures();
         return ExitCode.Done;

@@ -42,8 +42,12 @@ internal static class NumberOption
         string.Create(CultureInfo.InvariantCulture, $"a number from {min} to {max}"));
 
     /// <summary>Creates an option for a finite decimal number above 0.</summary>
-    public static Option<double?> Positive(string name, string helpName, string description) => Create<double>(
-        name, helpName, description, NumberStyles.Float, static number => number > 0 && double.IsFinite(number), "a number above 0");
+    /// <param name="name">The name with its dashes.</param>
+    /// <param name="helpName">The placeholder of the value in the help text.</param>
+    /// <param name="description">The sentence in the help text.</param>
+    /// <param name="unit">A unit that may stand behind the number; empty for none.</param>
+    public static Option<double?> Positive(string name, string helpName, string description, string unit = "") => Create<double>(
+        name, helpName, description, NumberStyles.Float, static number => number > 0 && double.IsFinite(number), "a number above 0", unit);
 
     /// <summary>Creates an option for a finite decimal number of at least 0.</summary>
     public static Option<double?> NonNegative(string name, string helpName, string description) => Create<double>(
@@ -51,7 +55,7 @@ internal static class NumberOption
         "a number that is not negative");
 
     private static Option<T?> Create<T>(
-        string name, string helpName, string description, NumberStyles styles, Func<T, bool> isValid, string expected)
+        string name, string helpName, string description, NumberStyles styles, Func<T, bool> isValid, string expected, string unit = "")
         where T : struct, INumberBase<T> => new(name)
         {
             Description = description,
@@ -59,7 +63,9 @@ internal static class NumberOption
             CustomParser = result =>
             {
                 if (result.Tokens is [{ Value: var token }]
-                    && T.TryParse(token, styles, CultureInfo.InvariantCulture, out var number) && isValid(number))
+                    && T.TryParse(
+                        token.EndsWith(unit, StringComparison.Ordinal) ? token.AsSpan(0, token.Length - unit.Length) : token, styles,
+                        CultureInfo.InvariantCulture, out var number) && isValid(number))
                 {
                     return number;
                 }

@@ -176,6 +176,20 @@ public sealed class Fractal : IEquatable<Fractal>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     internal FractalHierarchy HierarchyBySets => _hierarchyBySets.Value;
 
+    /// <summary>Finds <see cref="HierarchyBySets"/> of a finite fractal in affine composition; null where there is none.</summary>
+    internal FractalHierarchy? FindHierarchy()
+    {
+        try
+        {
+            return Description is { IsInfinite: false, Composition: Composition.Affine } ? HierarchyBySets : null;
+        }
+        catch (Exception exception) when (exception is FractalLimitException or SingularMatrixException)
+        {
+            // Without bounds, instances can only be listed.
+            return null;
+        }
+    }
+
     /// <summary>Builds the hierarchy of the fractal, which must be in affine composition, without keeping it.</summary>
     /// <param name="doublesPowers">False for one level for each set of the fractal, see <see cref="HierarchyBySets"/>.</param>
     /// <param name="keepsAllLevels">True to keep levels that no search from the whole fractal visits.</param>

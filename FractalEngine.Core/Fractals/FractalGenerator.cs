@@ -101,7 +101,7 @@ public static class FractalGenerator
         return fractal.Description.IsInfinite
             ? throw LimitError(fractal, maxInstances)
             : fractal.Description.CountsWays
-                ? StateExpansion.Expand(fractal.HierarchyBySets, maxInstances)
+                ? [.. StateExpansion.Walk(fractal.HierarchyBySets, maxInstances)]
                 : GraphExpansion.Expand(fractal.Graph, maxInstances);
     }
 

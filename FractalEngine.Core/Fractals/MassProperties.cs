@@ -1,8 +1,10 @@
+using System.Numerics;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Hulls;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
+using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Core.Fractals;
 
@@ -14,10 +16,8 @@ namespace FractalEngine.Core.Fractals;
 /// <param name="FirstMoment">Integral of the position, scene units⁴.</param>
 /// <param name="SecondMoment">Integral of the outer product of the position with itself, scene units⁵.</param>
 internal readonly record struct MassProperties(double Volume, Vector FirstMoment, Matrix SecondMoment)
+    : IAdditionOperators<MassProperties, MassProperties, MassProperties>
 {
-    // States of a fractal that are summed up at most: some 100 ms.
-    private const int MaxStates = 100_000;
-
     // Relative to the cube of the diagonal: a smaller volume is that of rounding.
     private const double MinVolume = 1e-9;
 
@@ -38,7 +38,7 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
         }
     }
 
-    public static MassProperties operator +(in MassProperties first, in MassProperties second) => new(
+    public static MassProperties operator +(MassProperties first, MassProperties second) => new(
         first.Volume + second.Volume, first.FirstMoment + second.FirstMoment, first.SecondMoment + second.SecondMoment);
 
     /// <summary>The integrals over the image of the solid under a map; mirrors keep the volume positive.</summary>
@@ -95,62 +95,17 @@ internal readonly record struct MassProperties(double Volume, Vector FirstMoment
     /// <returns>Null where the fractal has too many different parts.</returns>
     public static MassProperties? Of(FractalHierarchy hierarchy, out bool isClosed)
     {
-        var states = FindStates(hierarchy);
-        isClosed = true;
-        if (states is null)
-        {
-            return null;
-        }
-
-        var sums = new Dictionary<LevelState, MassProperties>();
-        foreach (var state in states)
-        {
-            if (hierarchy.IsBase(state.Level))
+        var areClosed = true;
+        var sum = LevelSums.Of(
+            hierarchy,
+            index =>
             {
-                sums[state] = Of(hierarchy.BaseMeshes[hierarchy.At(state.Level).BaseIndex], out var isBaseClosed);
-                isClosed &= isBaseClosed;
-            }
-            else
-            {
-                sums[state] = Sum(hierarchy, hierarchy.At(state.Level), state, sums);
-            }
-        }
-
-        return sums[hierarchy.Start];
-    }
-
-    /// <summary>Lists the states that the whole fractal consists of, base meshes first.</summary>
-    private static SortedSet<LevelState>? FindStates(FractalHierarchy hierarchy)
-    {
-        var order = Comparer<LevelState>.Create(
-            static (state1, state2) => (state1.Level, state1.Way, state1.Size).CompareTo((state2.Level, state2.Way, state2.Size)));
-        var states = new SortedSet<LevelState>(order) { hierarchy.Start };
-        var open = new Stack<(SubFractal Part, LevelState State)>([(hierarchy.Root, hierarchy.Start)]);
-        while (open.TryPop(out var next) && states.Count <= MaxStates)
-        {
-            foreach (var child in hierarchy.IsBase(next.State.Level) ? [] : next.Part.Children)
-            {
-                var state = hierarchy.Enter(child, next.State);
-                if (child.Group is not null || states.Add(state))
-                {
-                    open.Push((hierarchy.At(child, state.Level), state));
-                }
-            }
-        }
-
-        return states.Count <= MaxStates ? states : null;
-    }
-
-    private static MassProperties Sum(
-        FractalHierarchy hierarchy, SubFractal part, LevelState state, Dictionary<LevelState, MassProperties> sums)
-    {
-        var sum = default(MassProperties);
-        foreach (var child in part.Children)
-        {
-            sum += child.Group is { } group
-                ? Sum(hierarchy, group, state, sums) : sums[hierarchy.Enter(child, in state)].Transform(child.Map);
-        }
-
+                var properties = Of(hierarchy.BaseMeshes[index], out var isBaseClosed);
+                areClosed &= isBaseClosed;
+                return properties;
+            },
+            static (properties, child) => properties.Transform(child.Map));
+        isClosed = areClosed;
         return sum;
     }
 }

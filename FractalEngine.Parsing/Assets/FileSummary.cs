@@ -27,6 +27,7 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
     {
         var scene = file.Scene;
         var bounds = scene.Bounds;
+        var surface = SurfaceSummary.Of(scene);
         var chains = scene.Sum(static model => model.InstanceCount);
         var ranges = scene.Models.OfType<FractalModel>().Where(static model => model.Fractal.Description.HasChance).Distinct()
             .ToDictionary(static model => (Model)model, static model => model.Fractal.CountRange());
@@ -49,6 +50,11 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
             ("infinite", format(scene.Models.Any(static model => model is FractalModel { Fractal.Description.IsInfinite: true }))),
             ("boundsMin", format(bounds.IsEmpty ? null : bounds.Minimum)),
             ("boundsMax", format(bounds.IsEmpty ? null : bounds.Maximum)),
+            ("area", format(surface.Area)),
+            ("volume", format(surface.Volume)),
+            ("closed", format(surface.Open is null)),
+            ("openMesh", format(surface.Open?.Mesh)),
+            ("openEdge", format(surface.Open?.Edge)),
             ("storageBytes", format(file.StorageBytes)),
             ("loadMilliseconds", FormatTime(loadTime, format)),
             ("prepareMilliseconds", FormatTime(prepareTime, format)),
@@ -79,6 +85,7 @@ public sealed class FileSummary(LoadedFile file, TimeSpan loadTime, TimeSpan? pr
         string text => $"\"{JavaScriptEncoder.UnsafeRelaxedJsonEscaping.Encode(text)}\"",
         // JSON has no infinity.
         Vector vector when !vector.IsFinite() => "null",
+        double number when !double.IsFinite(number) => "null",
         Vector(var x, var y, var z) => FormattableString.Invariant($"[{x:R}, {y:R}, {z:R}]"),
         IFormattable number => number.ToString(null, CultureInfo.InvariantCulture),
         _ => throw new ArgumentOutOfRangeException(nameof(value)),

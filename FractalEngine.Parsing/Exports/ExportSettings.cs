@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Scenes.Cameras;
 
 namespace FractalEngine.Parsing.Exports;
 
@@ -10,4 +11,19 @@ public sealed record ExportSettings
 
     /// <summary>Whether each instance is written by itself, also where the format can keep levels.</summary>
     public bool IsFlat { get; init; }
+
+    /// <summary>The most instances in the whole scene: the largest parts are divided until there would be more. Null for all.</summary>
+    public long? MaxInstances { get; init; }
+
+    /// <summary>The handedness of the file's coordinates; null for what its format has.</summary>
+    public Handedness? Handedness { get; init; }
+
+    /// <summary>The axis of the file that points up; null for what its format has.</summary>
+    public UpAxis? Up { get; init; }
+
+    /// <summary>Length of a scene unit in the file, in millimetres or whatever its unit is; null for 1.</summary>
+    public double? UnitLength { get; init; }
+
+    /// <summary>Height of the whole scene in the file, in its unit, which decides the length of a scene unit; null for none.</summary>
+    public double? Height { get; init; }
 }

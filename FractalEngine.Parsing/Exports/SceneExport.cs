@@ -9,7 +9,7 @@ public abstract class SceneExport
     /// <summary>The ending of its files, with the dot.</summary>
     public abstract string Ending { get; }
 
-    /// <summary>Writes a scene.</summary>
+    /// <summary>Writes a scene as a file of the format.</summary>
     /// <param name="scene">Scene whose objects have their models.</param>
     /// <param name="settings">Limits, and how much of the levels is kept.</param>
     /// <param name="stream">Receives the file from its beginning to its end; it is not read, and need not be able to seek.</param>

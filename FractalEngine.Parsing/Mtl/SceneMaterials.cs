@@ -40,6 +40,9 @@ public sealed class SceneMaterials
     /// <summary>True where no face has a material.</summary>
     public bool IsEmpty { get; private set; }
 
+    /// <summary>The materials by their names.</summary>
+    public IReadOnlyDictionary<string, Material> ByName => _materials;
+
     /// <summary>Collects the materials that faces of a scene have.</summary>
     /// <param name="scene">With full paths of textures.</param>
     public static SceneMaterials Of(LoadedScene scene)
@@ -83,17 +86,33 @@ public sealed class SceneMaterials
     public string NameOf(PlacedModel placed, int index, string group, Tint tint)
     {
         ArgumentNullException.ThrowIfNull(placed);
-        var material = placed.Model.Materials.GetValueOrDefault(group);
-        var colour = material is null ? ObjectPalette.ColourOf(placed, index) : MixedWith(placed.Declaration.Colour, material).Diffuse;
-        var (red, green, blue) = tint.Apply(colour.ToLinearVector());
-        var mixed = new Colour(red, green, blue).FromLinear();
+        var mixed = ColourOf(placed, index, group, tint);
         var steps = Count < MaxFineColours ? 255 : 15;
-        return AddUnique((material ?? new("colour")) with
+        return AddUnique((placed.Model.Materials.GetValueOrDefault(group) ?? new("colour")) with
         {
             Diffuse = new(Round(mixed.Red), Round(mixed.Green), Round(mixed.Blue)),
         });
 
         double Round(double component) => Math.Round(component * steps) / steps;
+    }
+
+    /// <summary>Returns the colour of faces of an instance, without textures: of their material, or else as it is drawn.</summary>
+    /// <param name="placed">Object of the scene.</param>
+    /// <param name="index">Its index, and that of the mesh added, see <see cref="ObjectPalette"/>.</param>
+    /// <param name="group">Name of the material in the object's mesh; empty for none.</param>
+    /// <param name="tint">What maps mix into the colour.</param>
+    public static Colour ColourOf(PlacedModel placed, int index, string group, Tint tint)
+    {
+        ArgumentNullException.ThrowIfNull(placed);
+        var colour = placed.Model.Materials.GetValueOrDefault(group) is { } material
+            ? MixedWith(placed.Declaration.Colour, material).Diffuse : ObjectPalette.ColourOf(placed, index);
+        if (tint == Tint.None)
+        {
+            return colour;
+        }
+
+        var (red, green, blue) = tint.Apply(colour.ToLinearVector());
+        return new Colour(red, green, blue).FromLinear();
     }
 
     /// <summary>Writes the material file.</summary>

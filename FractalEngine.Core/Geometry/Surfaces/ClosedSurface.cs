@@ -16,20 +16,21 @@ public static class ClosedSurface
     /// </remarks>
     public static bool IsSolid(Mesh mesh)
     {
+        if (mesh.FaceCount == 0 || SurfaceEdges.Of(mesh).OpenCount > 0)
+        {
+            return false;
+        }
+
         var representatives = VertexWelding.FindRepresentatives(mesh);
         int[] indices = [.. mesh.VertexIndices.Select(vertex => representatives[vertex])];
-        var edgeBalance = new Dictionary<(int From, int To), int>(indices.Length);
         var components = new DisjointSets();
         components.Reset(mesh.VertexCount);
         for (var i = 0; i < indices.Length; i++)
         {
-            var (from, to) = (indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);
-            CollectionsMarshal.GetValueRefOrAddDefault(edgeBalance, from < to ? (from, to) : (to, from), out _) += Math.Sign(to - from);
-            components.Join(from, to);
+            components.Join(indices[i], indices[i % 3 == 2 ? i - 2 : i + 1]);
         }
 
-        return mesh.FaceCount > 0 && edgeBalance.Values.All(static count => count == 0)
-            && AreComponentsWoundOutwards(mesh, indices, components);
+        return AreComponentsWoundOutwards(mesh, indices, components);
     }
 
     private static bool AreComponentsWoundOutwards(Mesh mesh, int[] indices, DisjointSets components)

@@ -77,7 +77,8 @@ internal sealed class MeshFeatures
         return neighbour >= 0;
     }
 
-    private static bool IsFlat(Mesh mesh, int face1, int face2)
+    /// <summary>Tells whether two faces lie in one plane, wound alike.</summary>
+    internal static bool IsFlat(Mesh mesh, int face1, int face2)
     {
         var (a1, b1, c1) = mesh.Face(face1);
         var (a2, b2, c2) = mesh.Face(face2);

@@ -1,7 +1,8 @@
 namespace FractalEngine.Core.Scenes.Cameras;
 
 /// <summary>
-/// How the coordinates of a scene are shown. It changes the image only: coordinates, queries, physics and exports stay as they are.
+/// How the coordinates of a scene are shown. It changes the image, and files in formats that are right-handed; coordinates, queries and
+/// physics stay as they are.
 /// </summary>
 public enum Handedness
 {

@@ -110,7 +110,7 @@ public sealed class ChanceImageTests : IDisposable
         var materials = SceneMaterials.Of(scene);
         using (var stream = File.Create(_folder["exported.obj"]))
         {
-            ObjSceneWriter.Write(scene, stream, 200_000, materials, "exported.mtl");
+            ObjSceneWriter.Write(scene, stream, new() { MaxFaces = 200_000 }, materials, "exported.mtl");
         }
 
         using (var stream = File.Create(_folder["exported.mtl"]))

@@ -1,0 +1,81 @@
+using System.Buffers.Binary;
+using FractalEngine.Core;
+using FractalEngine.Core.Maths;
+
+namespace FractalEngine.Parsing.Exports;
+
+/// <summary>Writes numbers of binary formats to a stream through a buffer, the lowest byte first.</summary>
+/// <param name="stream">Receives the bytes; left open.</param>
+internal sealed class LittleEndianWriter(Stream stream)
+{
+    private readonly byte[] _buffer = new byte[1 << 18];
+    private int _length;
+
+    /// <summary>Writes bytes as they are, such as a header.</summary>
+    public void WriteBytes(ReadOnlySpan<byte> bytes) => bytes.CopyTo(Reserve(bytes.Length));
+
+    /// <summary>Writes a triangle as a list: a byte with the number 3, and three whole numbers of 32 bits.</summary>
+    public void WriteTriangle(uint a, uint b, uint c)
+    {
+        var bytes = Reserve(1 + (3 * sizeof(uint)));
+        bytes[0] = 3;
+        BinaryPrimitives.WriteUInt32LittleEndian(bytes[1..], a);
+        BinaryPrimitives.WriteUInt32LittleEndian(bytes[5..], b);
+        BinaryPrimitives.WriteUInt32LittleEndian(bytes[9..], c);
+    }
+
+    /// <summary>Writes a whole number of 16 bits.</summary>
+    public void WriteUInt16(ushort number) => BinaryPrimitives.WriteUInt16LittleEndian(Reserve(sizeof(ushort)), number);
+
+    /// <summary>Writes a whole number of 32 bits.</summary>
+    public void WriteUInt32(uint number) => BinaryPrimitives.WriteUInt32LittleEndian(Reserve(sizeof(uint)), number);
+
+    /// <summary>Writes a vector as three floats.</summary>
+    /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
+    public void WriteSingle(Vector vector)
+    {
+        if (!(vector.MaxAbsComponent() <= float.MaxValue))
+        {
+            throw new FractalEngineException($"a coordinate is beyond the range of a float: {vector}");
+        }
+
+        var bytes = Reserve(3 * sizeof(float));
+        BinaryPrimitives.WriteSingleLittleEndian(bytes, (float)vector.X);
+        BinaryPrimitives.WriteSingleLittleEndian(bytes[sizeof(float)..], (float)vector.Y);
+        BinaryPrimitives.WriteSingleLittleEndian(bytes[(2 * sizeof(float))..], (float)vector.Z);
+    }
+
+    /// <summary>Writes a vector as three doubles.</summary>
+    /// <exception cref="FractalEngineException">A coordinate is beyond the range of a double.</exception>
+    public void WriteDouble(Vector vector)
+    {
+        if (!vector.IsFinite())
+        {
+            throw new FractalEngineException("a vertex of an instance is beyond the range of a double");
+        }
+
+        var bytes = Reserve(3 * sizeof(double));
+        BinaryPrimitives.WriteDoubleLittleEndian(bytes, vector.X);
+        BinaryPrimitives.WriteDoubleLittleEndian(bytes[sizeof(double)..], vector.Y);
+        BinaryPrimitives.WriteDoubleLittleEndian(bytes[(2 * sizeof(double))..], vector.Z);
+    }
+
+    /// <summary>Passes all buffered bytes on to the stream.</summary>
+    public void Flush()
+    {
+        stream.Write(_buffer.AsSpan(0, _length));
+        _length = 0;
+    }
+
+    /// <summary>Makes room for some bytes, fewer than a thousand, behind those before.</summary>
+    private Span<byte> Reserve(int count)
+    {
+        if (_buffer.Length - _length < count)
+        {
+            Flush();
+        }
+
+        _length += count;
+        return _buffer.AsSpan(_length - count, count);
+    }
+}
