@@ -9,6 +9,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports;
+using FractalEngine.Parsing.Exports.Web;
 using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
@@ -17,7 +18,10 @@ namespace FractalEngine.App.Commands;
 internal static class ExportCommand
 {
     // Beside OBJ, which has a file for its materials.
-    private static readonly ImmutableArray<SceneExport> Formats = [];
+    private static readonly ImmutableArray<SceneExport> Formats =
+    [
+        new WebExport(),
+    ];
 
     private static string Endings { get; } = string.Join('|', [".obj", .. Formats.Select(static format => format.Ending)]);
 
@@ -49,6 +53,8 @@ internal static class ExportCommand
             throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.Depth.Value}");
         }
 
+        var format = Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase));
+        options = options with { IsStaged = format?.IsStaged == true };
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
         InputFiles.Protect(output);
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
@@ -56,10 +62,10 @@ internal static class ExportCommand
             throw new UsageException($"{path} has no recursive fractal, so --depth has no effect");
         }
 
-        if (Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase)) is { } format)
+        if (format is not null)
         {
             ExportSummary? summary = null;
-            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, new(), stream)));
+            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, new() { Load = options }, stream)));
             report.Written(output, summary!.Contents);
             foreach (var loss in summary.Losses)
             {

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Parsing.Exports;
 
@@ -10,4 +11,7 @@ public sealed record ExportSettings
 
     /// <summary>Whether each instance is written by itself, also where the format can keep levels.</summary>
     public bool IsFlat { get; init; }
+
+    /// <summary>How the scene's files were loaded, for formats that load them again at other values of their numbers.</summary>
+    public LoadOptions Load { get; init; } = new();
 }
