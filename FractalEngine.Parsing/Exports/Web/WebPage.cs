@@ -8,7 +8,11 @@ namespace FractalEngine.Parsing.Exports.Web;
 internal static class WebPage
 {
     private static readonly string[] Scripts = ["maths.js", "levels.js", "occlusion.js", "walk.js", "gpu.js", "camera.js", "viewer.js"];
-    private static readonly string[] Shaders = ["scene.vert", "scene.frag", "sky.vert", "sky.frag", "shadow.frag", "gather.frag", "show.frag"];
+    private static readonly string[] Shaders =
+    [
+        "scene.vert", "scene.frag", "sky.vert", "sky.frag", "shadow.frag", "gather.frag", "show.frag", "lit.glsl", "tone.glsl",
+    ];
+
 
     /// <summary>Makes the text of a page.</summary>
     /// <param name="title">Its title, plain text.</param>

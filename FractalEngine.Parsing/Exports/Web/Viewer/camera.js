@@ -1,6 +1,6 @@
 // A camera that turns about a point, moves along the screen, and goes towards what is under the pointer.
 class OrbitCamera {
-  // Calls changed() after each change; pick(x, y) gives the distance of what a pixel shows, or 0.
+  // Calls changed() after each change; pick(x, y) gives the depth of what a pixel shows, or 0.
   constructor(canvas, scene, pick, changed) {
     Object.assign(this, { canvas, scene, pick, changed, pointers: new Map() });
     this.reset();
@@ -38,8 +38,7 @@ class OrbitCamera {
 
   // The point that a pixel shows; in the plane of the pivot where that is nothing.
   pointAt(x, y) {
-    const ray = this.ray(x, y), distance = this.pick(x, y);
-    return add(this.position, ray, distance > 0 ? distance / length(ray) : dot(subtract(this.pivot, this.position), this.axes[2]));
+    return add(this.position, this.ray(x, y), this.pick(x, y) || dot(subtract(this.pivot, this.position), this.axes[2]));
   }
 
   down(event) {
@@ -47,8 +46,7 @@ class OrbitCamera {
     this.pointers.set(event.pointerId, [event.clientX, event.clientY]);
     if (this.pointers.size > 1) return;
     this.isPan = event.button !== 0 || event.shiftKey;
-    const distance = this.pick(event.clientX, event.clientY);
-    if (distance > 0) this.pivot = this.pointAt(event.clientX, event.clientY);
+    if (this.pick(event.clientX, event.clientY) > 0) this.pivot = this.pointAt(event.clientX, event.clientY);
   }
 
   move(event) {

@@ -8,6 +8,8 @@ class Gpu {
     this.scene = this.program("scene.vert", "scene.frag");
     this.shadow = this.program("scene.vert", "shadow.frag");
     this.sky = this.program("sky.vert", "sky.frag");
+    this.finalScene = this.program("scene.vert", "scene.frag", "#define FINAL\n");
+    this.finalSky = this.program("sky.vert", "sky.frag", "#define FINAL\n");
     this.gather = this.program("sky.vert", "gather.frag");
     this.show = this.program("sky.vert", "show.frag");
     this.keyMap = this.depthMap(1024);
@@ -17,11 +19,12 @@ class Gpu {
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, 1, 1, 0, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array([255, 255, 255, 255]));
   }
 
-  program(vertex, fragment) {
+  program(vertex, fragment, symbols = "") {
     const { gl } = this, program = gl.createProgram();
     for (const [name, kind] of [[vertex, gl.VERTEX_SHADER], [fragment, gl.FRAGMENT_SHADER]]) {
       const shader = gl.createShader(kind);
-      gl.shaderSource(shader, document.getElementById(name).textContent);
+      const text = id => document.getElementById(id).textContent.replace(/#include (\S+)/g, (_, other) => text(other));
+      gl.shaderSource(shader, text(name).replace("\n", "\n" + symbols));
       gl.compileShader(shader);
       if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(name + ": " + gl.getShaderInfoLog(shader));
       gl.attachShader(program, shader);
@@ -50,6 +53,7 @@ class Gpu {
       else if (place.type === gl.FLOAT_VEC4) gl.uniform4fv(place.at, list);
       else if (place.type === gl.FLOAT_MAT3) gl.uniformMatrix3fv(place.at, false, list);
       else if (place.type === gl.FLOAT_MAT4) gl.uniformMatrix4fv(place.at, false, list);
+      else if (place.type === gl.INT_VEC3) gl.uniform3iv(place.at, list);
       else gl.uniform1iv(place.at, list);
     }
   }
@@ -89,22 +93,35 @@ class Gpu {
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
     }
     gl.drawBuffers([0, 1, 2].map(i => gl.COLOR_ATTACHMENT0 + i));
-    return { frame, textures, depth };
+    return { frame, textures, buffers: [depth] };
+  }
+
+  // A target for frames of less than all pixels.
+  coarseTarget(width, height) {
+    const { gl } = this, frame = gl.createFramebuffer(), buffers = [gl.createRenderbuffer(), gl.createRenderbuffer()];
+    gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+    [[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]].forEach(([format, place], i) => {
+      gl.bindRenderbuffer(gl.RENDERBUFFER, buffers[i]);
+      gl.renderbufferStorage(gl.RENDERBUFFER, format, width, height);
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffers[i]);
+    });
+    return { frame, textures: [], buffers };
   }
 
   resize(width, height) {
     const { gl } = this;
-    for (const { frame, textures, depth } of this.drawn ? [this.drawn, this.sum] : []) {
+    for (const { frame, textures, buffers } of this.drawn ? [this.drawn, this.sum, this.coarse] : []) {
       textures.forEach(texture => gl.deleteTexture(texture));
-      gl.deleteRenderbuffer(depth);
+      buffers.forEach(buffer => gl.deleteRenderbuffer(buffer));
       gl.deleteFramebuffer(frame);
     }
+    this.coarse = this.coarseTarget(width, height);
     this.drawn = this.target(width, height, true);
     this.sum = this.target(width, height, false);
     Object.assign(this, { width, height });
   }
 
-  // A mesh as buffers. Each list of instances has a vertex array of its own.
+  // A mesh as buffers, with several copies of a small one.
   mesh(data) {
     const { gl } = this, box = data.box, mesh = { data };
     mesh.positions = sums(data.positions, 3, box.slice(0, 3), box.slice(3));
@@ -118,53 +135,54 @@ class Gpu {
     }
     mesh.indices = Uint32Array.from(indices);
     mesh.canHide = indices.length <= 3 * 64 && mesh.positions.length <= 3 * 256;
-    const attribute = (array, kind = gl.ARRAY_BUFFER) => {
-      const buffer = gl.createBuffer();
-      gl.bindBuffer(kind, buffer);
-      gl.bufferData(kind, array, gl.STATIC_DRAW);
-      return buffer;
-    };
-    gl.bindVertexArray(null);
-    mesh.buffers = [[attribute(mesh.positions), 3], [attribute(sums(data.normals, 3, [0, 0, 0], [1 / 127, 1 / 127, 1 / 127])), 3]];
+    mesh.count = mesh.positions.length / 3;
+    mesh.copies = Math.max(1, Math.floor(4096 / mesh.count));
+    mesh.array = gl.createVertexArray();
+    gl.bindVertexArray(mesh.array);
     const t = data.textureBox;
-    mesh.buffers.push(t ? [attribute(sums(data.texture, 2, t.slice(0, 2), t.slice(2))), 2] : null);
-    mesh.buffers.push(data.colours ? [attribute(sums(data.colours, 3, [0, 0, 0], [1 / 255, 1 / 255, 1 / 255]).map(linear)), 3] : null);
-    mesh.elements = attribute(mesh.indices, gl.ELEMENT_ARRAY_BUFFER);
+    this.attribute(mesh, 0, 3, mesh.positions);
+    this.attribute(mesh, 1, 3, sums(data.normals, 3, [0, 0, 0], [1 / 127, 1 / 127, 1 / 127]));
+    if (t) this.attribute(mesh, 2, 2, sums(data.texture, 2, t.slice(0, 2), t.slice(2)));
+    if (data.colours) this.attribute(mesh, 3, 3, sums(data.colours, 3, [0, 0, 0], [1 / 255, 1 / 255, 1 / 255]).map(linear));
+    const elements = new Uint32Array(mesh.copies * indices.length);
+    let n = 0;
+    for (const batch of mesh.batches) {
+      const { first, count } = batch;
+      batch.start = n;
+      for (let copy = 0; copy < mesh.copies; copy++) {
+        for (let i = first; i < first + count; i++) elements[n++] = indices[i] + copy * mesh.count;
+      }
+    }
+    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, elements, gl.STATIC_DRAW);
+    gl.bindVertexArray(null);
     return mesh;
   }
 
-  instances(mesh) {
-    const { gl } = this, list = { array: gl.createVertexArray(), buffer: gl.createBuffer(), count: 0 };
-    gl.bindVertexArray(list.array);
-    mesh.buffers.forEach((entry, i) => {
-      if (!entry) return;
-      gl.bindBuffer(gl.ARRAY_BUFFER, entry[0]);
-      gl.enableVertexAttribArray(i);
-      gl.vertexAttribPointer(i, entry[1], gl.FLOAT, false, 0, 0);
-    });
-    gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, mesh.elements);
-    gl.bindBuffer(gl.ARRAY_BUFFER, list.buffer);
-    [4, 4, 4, 3, 4].forEach((size, i) => {
-      gl.enableVertexAttribArray(4 + i);
-      gl.vertexAttribPointer(4 + i, size, gl.FLOAT, false, 4 * INSTANCE, 16 * i - (i === 4 ? 4 : 0));
-      gl.vertexAttribDivisor(4 + i, 1);
-    });
-    gl.bindVertexArray(null);
-    return list;
+  attribute(mesh, place, components, array) {
+    const { gl } = this, copied = new Float32Array(array.length * mesh.copies);
+    for (let copy = 0; copy < mesh.copies; copy++) copied.set(array, copy * array.length);
+    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+    gl.bufferData(gl.ARRAY_BUFFER, copied, gl.STATIC_DRAW);
+    gl.enableVertexAttribArray(place);
+    gl.vertexAttribPointer(place, components, gl.FLOAT, false, 0, 0);
   }
 
   upload(list, { data, count }) {
-    const { gl } = this;
+    const { gl } = this, rows = Math.ceil(count / ROW);
     list.count = count;
-    gl.bindBuffer(gl.ARRAY_BUFFER, list.buffer);
-    gl.bufferData(gl.ARRAY_BUFFER, data.subarray(0, INSTANCE * count), gl.DYNAMIC_DRAW);
+    list.texture ??= this.texture();
+    this.bind(6, list.texture);
+    gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, 5 * ROW, rows, 0, gl.RGBA, gl.FLOAT, data.subarray(0, INSTANCE * ROW * rows));
   }
 
-  draw(list, batch) {
+  draw(program, mesh, batch, list) {
     const { gl } = this;
-    gl.bindVertexArray(list.array);
+    gl.bindVertexArray(mesh.array);
     gl.vertexAttrib3f(3, 1, 1, 1);
-    gl.drawElementsInstanced(gl.TRIANGLES, batch.count, gl.UNSIGNED_INT, 4 * batch.first, list.count);
+    this.bind(6, list.texture);
+    this.use(program, { instances: 6, counts: [mesh.count, mesh.copies, list.count] });
+    gl.drawElementsInstanced(gl.TRIANGLES, batch.count * mesh.copies, gl.UNSIGNED_INT, 4 * batch.start, Math.ceil(list.count / mesh.copies));
   }
 
   bind(unit, texture) {

@@ -21,21 +21,19 @@ in vec3 pixelPosition;
 in vec3 pixelNormal;
 in vec3 pixelColour;
 in vec2 pixelPlace;
+#ifdef FINAL
+uniform vec3 above, below, curvature;   // ambient light
+out vec4 fragment;                      // as the screen shows it, without shadows of the sky
+#include tone.glsl
+#else
 layout(location = 0) out vec4 direct;   // w: 1
 layout(location = 1) out vec4 reflected; // w: distance
 layout(location = 2) out vec4 facing;   // unit normal; w: part of ambient light that is reflected
-
-// How much of a parallel light arrives at a surface. The place of comparison lies a little before the surface.
-float litPart(sampler2DShadow map, mat4 toMap, vec3 position, vec3 n, float texel, vec3 toLight) {
-  float slant = 1.0 - clamp(dot(n, toLight), 0.0, 1.0);
-  vec3 at = (toMap * vec4(position + n * texel * (0.6 + slant) + toLight * texel * 0.5, 1.0)).xyz;
-  if (any(lessThan(at, vec3(0.0))) || any(greaterThan(at, vec3(1.0)))) return 1.0;
-  return texture(map, at);
-}
+#endif
+#include lit.glsl
 
 void main() {
-  float hash = fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233)) + seed) * 43758.5453);
-  if (opacity < 1.0 && hash >= opacity) discard;
+  if (opacity < 1.0 && fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233)) + seed) * 43758.5453) >= opacity) discard;
   vec3 n = normalize(gl_FrontFacing ? pixelNormal : -pixelNormal);
   vec3 surface = pixelColour;
   if (isTextured) {
@@ -60,8 +58,13 @@ void main() {
       light += cosine * strength * lightColours[i].rgb;
     }
   }
-  float clear = exp(-fog.w * length(pixelPosition));
+  float clear = fog.w > 0.0 ? exp(-fog.w * length(pixelPosition)) : 1.0;
+#ifdef FINAL
+  light += material[0] * (mix(below, above, 0.5 + 0.5 * n.y) + n.y * n.y * curvature);
+  fragment = vec4(encode(clamp(tone(mix(fog.rgb, surface * light + material[1], clear)), 0.0, 1.0)), 1.0);
+#else
   direct = vec4(clear * (surface * light + material[1]) + (1.0 - clear) * fog.rgb, 1.0);
   reflected = vec4(clear * surface, length(pixelPosition));
   facing = vec4(n, dot(material[0], vec3(0.3333)));
+#endif
 }

@@ -1,6 +1,6 @@
 // Shows the scene: coarse while it moves, then finer, and then the mean of many frames, each with the shadows of one direction of the sky.
-// Eight ways to lay pixels over the scene, with the shadows of six directions each.
-const FRAMES = 48, JITTERS = 8, FINEST = 1.5, BUDGET = 400000;
+// Four ways to lay pixels over the scene, with the shadows of six directions each.
+const FRAMES = 24, JITTERS = 4, FINEST = 2, BUDGET = 300000;
 
 class Viewer {
   constructor(scene) {
@@ -13,12 +13,13 @@ class Viewer {
     this.images = scene.textures.map(bytes => this.image(bytes));
     this.maxDepth = Infinity;
     this.movingSize = 6;
+    this.part = 1;
     this.lastMove = 0;
     this.directions = Array.from({ length: FRAMES }, (_, i) => {
       const y = 1 - 2 * ((0.5 + 0.7548776662 * (i + 1)) % 1), angle = 2 * Math.PI * ((0.5698402910 * (i + 1)) % 1), r = Math.sqrt(1 - y * y);
       return [r * Math.cos(angle), y, r * Math.sin(angle)];
     });
-    this.camera = new OrbitCamera(this.canvas, scene, (x, y) => this.distanceAt(x, y), () => this.change());
+    this.camera = new OrbitCamera(this.canvas, scene, (x, y) => this.depthAt(x, y), () => this.change());
     this.panel();
     new ResizeObserver(() => this.change()).observe(this.canvas);
     const step = time => {
@@ -36,7 +37,7 @@ class Viewer {
       const from = stops[i - 4], part = clamp((place - from) / (stops[i] - from) || 0, 0, 1);
       return [1, 2, 3].map(k => stops[i - 4 + k] + part * (stops[i + k] - stops[i - 4 + k]));
     };
-    const lists = { main: this.gpu.instances(mesh), key: this.gpu.instances(mesh), sky: this.gpu.instances(mesh) };
+    const lists = { main: { count: 0 }, key: { count: 0 }, sky: { count: 0 } };
     return {
       levels, mesh, lists, palette, map: data.map, colour: data.colour, gradient: data.gradient || 0, middle: whole.slice(0, 3),
       centre: whole.slice(0, 3), height: whole[4] || 1, diagonal: length(whole.slice(3)) || 1,
@@ -158,16 +159,16 @@ class Viewer {
   // A frame within a thirtieth of a second: sub-fractals are opened as far as the last such frames had time for.
   drawMoving(time) {
     const took = time - this.lastFrame;
-    if (took < 200) this.movingSize = clamp(this.movingSize * (took > 30 ? 1.15 : took < 22 ? 0.93 : 1), FINEST, 60);
+    if (took < 1000) this.movingSize = clamp(this.movingSize * (took > 31 ? 1.15 : took < 24 ? 0.93 : 1), FINEST, 80);
+    this.part = this.movingSize > 40 ? 0.5 : this.movingSize > 20 ? 0.75 : 1;
     this.lastFrame = time;
     this.tell("moving");
     const walk = new Walk(this.objects, this.view(this.movingSize), this.occlusion, 60000);
     walk.run(performance.now() + 40);
     this.list(walk, "main");
     if (!this.key) this.key = this.shadow(this.gpu.keyMap, "key", this.keyDirection(), 6);
-    this.draw(walk.view, [0, 0]);
-    this.gather(walk.view, null, true);
-    this.present(1);
+    this.draw(walk.view);
+    this.part = 1;
   }
 
   // Draws finer and finer, step by step, then gathers frames.
@@ -180,9 +181,7 @@ class Viewer {
       while (!walk.run(performance.now() + 14)) yield;
       if (walk.isOver) break;
       this.list(walk, "main");
-      this.draw(view, [0, 0]);
-      this.gather(view, null, true);
-      this.present(1);
+      this.draw(view);
       yield;
       if (size === FINEST) break;
     }
@@ -195,7 +194,7 @@ class Viewer {
           i);
       }
       this.gather(view, direction, i === 0);
-      if (i % JITTERS === JITTERS - 1) this.present(i + 1);
+      if (i % 4 === 3) this.present(i + 1);
     }
   }
 
@@ -216,7 +215,7 @@ class Viewer {
         n += 4;
       }
     });
-    Object.assign(this, { view_: view, places, origin: view.origin, nearest: walk.nearest, farthest: walk.farthest });
+    Object.assign(this, { listedView: view, places, origin: view.origin, nearest: walk.nearest, farthest: walk.farthest });
   }
 
   keyDirection() {
@@ -256,7 +255,7 @@ class Viewer {
       projection: [1 / half, 1 / half, 2 / (far - near), -(far + near) / (far - near)],
     });
     for (const { mesh, lists } of this.objects) {
-      if (lists[name].count > 0) mesh.batches.forEach(batch => this.gpu.draw(lists[name], batch));
+      if (lists[name].count > 0) mesh.batches.forEach(batch => this.gpu.draw(this.gpu.shadow, mesh, batch, lists[name]));
     }
     return { axes, origin, half, near, far, texel: 2 * half / map.size, direction };
   }
@@ -270,25 +269,24 @@ class Viewer {
     return [0, 1, 2, 3].flatMap(column => [rows[0][column], rows[1][column], rows[2][column], column === 3 ? 1 : 0]);
   }
 
-  draw(view, jitter, seed = 0) {
-    const { gpu, scene, camera } = this, { gl } = gpu, listed = this.view_, [right, up, forward] = view.axes;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, gpu.drawn.frame);
-    gl.viewport(0, 0, gpu.width, gpu.height);
-    gl.disable(gl.DEPTH_TEST);
-    gl.disable(gl.CULL_FACE);
+  // Draws what is listed: onto the screen at once, or with a jitter, into the parts that frames add up.
+  draw(view, jitter = null, seed = 0) {
+    const { gpu, scene, camera, slopes } = this, { gl } = gpu, listed = this.listedView, [right, up, forward] = view.axes;
+    const program = jitter ? gpu.scene : gpu.finalScene;
+    const width = Math.round(this.part * gpu.width), height = Math.round(this.part * gpu.height);
+    gl.bindFramebuffer(gl.FRAMEBUFFER, jitter ? gpu.drawn.frame : this.part < 1 ? gpu.coarse.frame : null);
+    gl.viewport(0, 0, width, height);
+    gl.depthFunc(gl.LEQUAL);
     gl.clear(gl.DEPTH_BUFFER_BIT);
-    const { slopes } = this;
-    const sky = scene.sky || [0, 0, 0, 0, 0, 0, 0, 0, 0];
-    gpu.fill(gpu.sky, {
-      fromCamera: [...right, ...up, ...forward], slopes, zenith: sky.slice(0, 3), horizon: sky.slice(3, 6), ground: sky.slice(6),
-    });
     gl.enable(gl.DEPTH_TEST);
     const far = Math.max(this.farthest, 1e-12) * 1.01, near = clamp(this.nearest * 0.9, 1e-5 * far, 0.5 * far);
     const lights = scene.lights, position = light => light.position ? subtract(light.position, camera.position) : scale(light.axis, -1);
     gpu.bind(0, gpu.keyMap.texture);
-    gpu.use(gpu.scene, {
-      toWorld: [...listed.axes[0], ...listed.axes[1], ...listed.axes[2]], offset: subtract(listed.origin, camera.position),
-      toCamera: [0, 1, 2].flatMap(k => [right[k], up[k], forward[k]]), jitter, isParallel: 0, seed,
+    const ambient = { above: scene.ambient.slice(0, 3), below: scene.ambient.slice(3, 6), curvature: scene.ambient.slice(6) };
+    const display = { display: scene.display, background: [...scene.background, scene.sky ? 0 : 1] };
+    gpu.use(program, {
+      ...ambient, ...display, toWorld: [...listed.axes[0], ...listed.axes[1], ...listed.axes[2]], offset: subtract(listed.origin, camera.position),
+      toCamera: [0, 1, 2].flatMap(k => [right[k], up[k], forward[k]]), jitter: jitter || [0, 0], isParallel: 0, seed,
       projection: [1 / slopes[0], 1 / slopes[1], (far + near) / (far - near), -2 * far * near / (far - near)],
       lightCount: lights.length, lightColours: lights.flatMap(light => [...light.colour, light.position ? 1 : 0]),
       lightPositions: lights.flatMap(light => [...position(light), light.range || 0]),
@@ -305,12 +303,22 @@ class Viewer {
         const material = scene.materials[batch.material] || { colour: [1, 1, 1], opacity: 1, ambient: [1, 1, 1], emission: [0, 0, 0] };
         const isTextured = material.texture !== undefined;
         gpu.bind(2, isTextured ? this.images[material.texture] : gpu.white);
-        gpu.use(gpu.scene, {
+        gpu.use(program, {
           kd: [...material.colour, batch.material < 0 ? 0 : 1], opacity: material.opacity, isTextured,
           material: [...material.ambient, ...material.emission], texturePlace: material.place || [1, 1, 0, 0],
         });
-        gpu.draw(object.lists.main, batch);
+        gpu.draw(program, object.mesh, batch, object.lists.main);
       }
+    }
+    // Behind all surfaces, so that only what they leave is computed.
+    const sky = scene.sky || [0, 0, 0, 0, 0, 0, 0, 0, 0];
+    gl.disable(gl.CULL_FACE);
+    gpu.fill(jitter ? gpu.sky : gpu.finalSky, {
+      ...display, fromCamera: [...right, ...up, ...forward], slopes, zenith: sky.slice(0, 3), horizon: sky.slice(3, 6), ground: sky.slice(6),
+    });
+    if (this.part < 1) {
+      gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
+      gl.blitFramebuffer(0, 0, width, height, 0, 0, gpu.width, gpu.height, gl.COLOR_BUFFER_BIT, gl.LINEAR);
     }
   }
 
@@ -356,14 +364,16 @@ class Viewer {
     });
   }
 
-  // The distance of what a pixel shows; 0 for the sky.
-  distanceAt(x, y) {
-    const { gl, height, drawn } = this.gpu, ratio = this.gpu.width / this.canvas.clientWidth;
+  // The depth of what a pixel shows, as the walk has found it; 0 for the sky. Large meshes are drawn to find theirs.
+  depthAt(x, y) {
+    const { gl, width, height, drawn } = this.gpu, ratio = width / this.canvas.clientWidth;
+    const column = Math.floor(x * ratio), row = height - 1 - Math.floor(y * ratio), near = this.occlusion.near[row * width + column];
+    if (near > 0 || this.objects.every(object => object.mesh.canHide) || !this.gpu.hasFloats) return near > 0 ? 1 / near : 0;
+    this.draw(this.view(FINEST), [0, 0]);
     const texel = new Float32Array(4);
-    gl.bindFramebuffer(gl.FRAMEBUFFER, drawn.frame);
     gl.readBuffer(gl.COLOR_ATTACHMENT1);
-    gl.readPixels(Math.floor(x * ratio), height - 1 - Math.floor(y * ratio), 1, 1, gl.RGBA, gl.FLOAT, texel);
-    return texel[3];
+    gl.readPixels(column, row, 1, 1, gl.RGBA, gl.FLOAT, texel);
+    return texel[3] / length(this.camera.ray(x, y));
   }
 }
 

@@ -1,6 +1,6 @@
 const FRAME = 32, LEVEL = 12, SIZE = 13, RECT = 14, NEAR = 18, FAR = 19, PIXELS = 20, COUNT = 21, PART = 22, WEIGHT = 23, APPROACH = 24;
 const DEPTH = 25, TINT = 26;
-const INSTANCE = 19;
+const INSTANCE = 20, ROW = 400; // numbers of an instance, and instances in a row of a texture
 
 // Walks the levels of all objects from the top, the nearest children first, and lists the instances that a view shows. What appears
 // smaller than a number of pixels is one instance of its base mesh.
@@ -13,7 +13,7 @@ class Walk {
     this.order = [];
     this.corners = new Float64Array(3 * 256);
     this.whole = new Float64Array(12);
-    this.lists = objects.map(() => ({ data: new Float32Array(INSTANCE * 256), count: 0 }));
+    this.lists = objects.map(() => ({ data: new Float32Array(INSTANCE * ROW), count: 0 }));
     this.next = 0;
     this.top = 0;
     occlusion.clear();
@@ -238,8 +238,8 @@ class Walk {
     for (let k = 0; k < 12; k++) target[start + k] = map[at + k];
     target.set(this.colour(f, item), start + 12);
     const isTinted = this.levels.shape.tints > 0, mean = isTinted ? this.levels.meanTint(m[f + LEVEL]) : null;
-    for (let k = 0; k < 3; k++) target[start + 15 + k] = isTinted ? m[f + TINT + k] + m[f + TINT + 3] * mean[k] : 0;
-    target[start + 18] = isTinted ? m[f + TINT + 3] * mean[3] : 1;
+    for (let k = 0; k < 3; k++) target[start + 16 + k] = isTinted ? m[f + TINT + k] + m[f + TINT + 3] * mean[k] : 0;
+    target[start + 19] = isTinted ? m[f + TINT + 3] * mean[3] : 1;
     this.nearest = Math.min(this.nearest, m[f + NEAR]);
     this.farthest = Math.max(this.farthest, m[f + FAR]);
     if (mesh.canHide) this.hide(map, at, mesh);
