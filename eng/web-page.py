@@ -3,7 +3,8 @@
 
 web-page.py PAGE WIDTHxHEIGHT STEP...    runs the steps in order, and ends with 1 after any error of the page:
   wait                    until the page has drawn its finest image
-  shot FILE.png           saves what the page shows
+  shot FILE.png           saves what the page shows, without its panel
+  compare FILE.png DECIBELS  compares it with an image, prints the PSNR, and is an error below that many decibels
   drag X,Y X,Y            drags with the left button, and prints the frames a second meanwhile
   wheel X,Y TURNS         turns the wheel so many times, forwards where that is positive
   slide NAME VALUE        moves a slider
@@ -12,6 +13,7 @@ web-page.py PAGE WIDTHxHEIGHT STEP...    runs the steps in order, and ends with 
 """
 import base64
 import json
+import math
 import os
 import pathlib
 import shutil
@@ -19,6 +21,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 
 class Browser:
@@ -125,6 +128,51 @@ def processor_time(browser):
     return total / os.sysconf("SC_CLK_TCK")
 
 
+def screenshot(browser):
+    browser.evaluate("document.getElementById('panel').style.visibility = 'hidden'")
+    image = base64.b64decode(browser.call("Page.captureScreenshot", format="png")["data"])
+    browser.evaluate("document.getElementById('panel').style.visibility = ''")
+    return image
+
+
+def pixels(png):
+    """The size of a PNG of 8 bits, and its red, green and blue."""
+    chunks, at, data = {}, 8, b""
+    while at < len(png):
+        size, kind = int.from_bytes(png[at:at + 4], "big"), png[at + 4:at + 8]
+        chunks[kind] = png[at + 8:at + 8 + size]
+        data += chunks[kind] if kind == b"IDAT" else b""
+        at += 12 + size
+    header = chunks[b"IHDR"]
+    width, height = int.from_bytes(header[:4], "big"), int.from_bytes(header[4:8], "big")
+    step = {2: 3, 6: 4}[header[9]]
+    rows, size, above, result = zlib.decompress(data), step * width, bytes(step * width), bytearray()
+    for y in range(height):
+        kind, row = rows[y * (size + 1)], bytearray(rows[y * (size + 1) + 1:(y + 1) * (size + 1)])
+        for i in range(size if kind else 0):
+            left, up, corner = row[i - step] if i >= step else 0, above[i], above[i - step] if i >= step else 0
+            if kind == 4:
+                guess = left + up - corner
+                added = min((left, up, corner), key=lambda one: abs(guess - one))
+            else:
+                added = (0, left, up, (left + up) // 2)[kind]
+            row[i] = (row[i] + added) & 255
+        above = bytes(row)
+        result += bytes(value for i, value in enumerate(row) if i % step < 3)
+    return (width, height), result
+
+
+def compare(browser, file, least):
+    (size, ours), (other, theirs) = pixels(screenshot(browser)), pixels(pathlib.Path(file).read_bytes())
+    if size != other:
+        raise RuntimeError(f"{file} has the size {other}, and the page {size}")
+    squares = sum((a - b) ** 2 for a, b in zip(ours, theirs))
+    decibels = 10 * math.log10(255 ** 2 * len(ours) / max(squares, 1))
+    print(f"{file}: {decibels:.2f} dB")
+    if decibels < least:
+        browser.errors.append(f"fewer than {least} dB")
+
+
 def place(text):
     return [float(number) for number in text.split(",")]
 
@@ -159,8 +207,9 @@ def main():
                 wait(browser)
                 print(f"wait: {time.time() - began:.1f} s, {browser.evaluate('viewer.instances')} instances")
             elif step == "shot":
-                with open(steps.pop(0), "wb") as file:
-                    file.write(base64.b64decode(browser.call("Page.captureScreenshot", format="png")["data"]))
+                pathlib.Path(steps.pop(0)).write_bytes(screenshot(browser))
+            elif step == "compare":
+                compare(browser, steps.pop(0), float(steps.pop(0)))
             elif step == "drag":
                 drag(browser, place(steps.pop(0)), place(steps.pop(0)))
             elif step == "wheel":

@@ -93,11 +93,10 @@ internal sealed class WebLevels
             level.Mesh, level.Box.IsEmpty ? 1 : 0,
             ListOf(level), level.Choice is { } choice ? WriteChoice(choice) : "0")).ToArray();
         var runs = _levels.Runs.Select(static run => Text(run.FirstLevel, run.LevelCount, run.FirstIndex, run.Period));
-        return $$"""
-            {"maps":{{_levels.Sets.Sum(static set => set.Maps.Length)}},"tints":{{tinted.Count}},"count":{{levelCount}},"start":{{Text(
-                _levels.Start, Quote(_levels.StartWay), _levels.StartSize)}},"runs":[{{string.Join(',', runs)}}],"lists":[{{string.Join(
-                ',', lists.Keys)}}],"levels":[{{string.Join(',', levels)}}]}
-            """;
+        var start = Text(_levels.Start, Quote(_levels.StartWay), _levels.StartSize);
+        return string.Create(CultureInfo.InvariantCulture, $"{{\"maps\":{_levels.Sets.Sum(static set => set.Maps.Length)},")
+            + string.Create(CultureInfo.InvariantCulture, $"\"tints\":{tinted.Count},\"count\":{levelCount},\"start\":{start},")
+            + $"\"runs\":{Text([.. runs])},\"lists\":{Text([.. lists.Keys])},\"levels\":{Text(levels)}}}";
 
         int ListOf(FractalLevel level)
         {

@@ -1,6 +1,7 @@
 using System.IO.Compression;
 using System.Net;
 using System.Text;
+using System.Text.Json;
 
 namespace FractalEngine.Parsing.Exports.Web;
 
@@ -14,20 +15,27 @@ internal static class WebPage
     ];
 
 
+    /// <summary>Writes the shaders of the viewer, as a JSON object of their names.</summary>
+    public static void WriteShaders(Utf8JsonWriter json)
+    {
+        json.WriteStartObject("shaders");
+        foreach (var shader in Shaders)
+        {
+            json.WriteString(shader, Read(shader));
+        }
+
+        json.WriteEndObject();
+    }
+
     /// <summary>Makes the text of a page.</summary>
     /// <param name="title">Its title, plain text.</param>
-    /// <param name="data">JSON, UTF-8. It is deflated, since numbers as text take three times the room.</param>
+    /// <param name="data">JSON, UTF-8, with the shaders. It is deflated, since numbers as text take three times the room.</param>
     public static byte[] Assemble(string title, byte[] data)
     {
         var page = new StringBuilder("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n")
             .Append("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>")
             .Append(WebUtility.HtmlEncode(title)).Append("</title>\n<style>\n").Append(Read("viewer.css")).Append("</style>\n</head>\n")
             .Append(Read("viewer.html"));
-        foreach (var shader in Shaders)
-        {
-            page.Append("<script type=\"x-shader\" id=\"").Append(shader).Append("\">").Append(Read(shader)).Append("</script>\n");
-        }
-
         page.Append("<script type=\"text/plain\" id=\"data\">").Append(Convert.ToBase64String(Deflate(data)))
             .Append("</script>\n<script>\n\"use strict\";\n").AppendJoin("", Scripts.Select(Read)).Append("</script>\n</html>\n");
         return Encoding.UTF8.GetBytes(page.ToString());

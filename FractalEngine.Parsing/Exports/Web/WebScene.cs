@@ -62,6 +62,7 @@ internal sealed class WebScene
         using (var json = new Utf8JsonWriter(stream))
         {
             json.WriteStartObject();
+            WebPage.WriteShaders(json);
             WriteView(json);
             WriteLights(json);
             json.WriteStartArray("meshes");
@@ -128,13 +129,19 @@ internal sealed class WebScene
         Lose(scene.Fog is { IsLit: true }, "haze has no shafts of light in the page");
         Lose(scene.Background is not null && scene.Sky is not null, "the page shows the sky, not the background before it");
         var ambient = SceneAmbient.Of(scene);
-        WebMesh.WriteNumbers(json, "ambient", [.. new[] { ambient.Above, ambient.Below, ambient.Curvature }.SelectMany(WebMesh.Components)]);
+        json.WriteStartObject("ambient");
+        WriteVector(json, "above", ambient.Above);
+        WriteVector(json, "below", ambient.Below);
+        WriteVector(json, "curvature", ambient.Curvature);
+        json.WriteEndObject();
         if (scene.Sky is { } sky)
         {
             var radiance = sky.ToRadiance(scene.Handedness);
-            // Below the horizon a sky of colours goes by the root of the height, and an image by what it shows.
-            Vector[] colours = [radiance.At(Vector.J), sky.HorizonRadiance, radiance.At(-Vector.J)];
-            WebMesh.WriteNumbers(json, "sky", colours.SelectMany(WebMesh.Components));
+            json.WriteStartObject("sky");
+            WriteVector(json, "zenith", radiance.At(Vector.J));
+            WriteVector(json, "horizon", sky.HorizonRadiance);
+            WriteVector(json, "ground", radiance.At(-Vector.J));
+            json.WriteEndObject();
         }
 
         WriteVector(json, "background", (scene.Background ?? new(0.118, 0.133, 0.161)).ToLinearVector());
@@ -175,7 +182,8 @@ internal sealed class WebScene
                 linear.V1.Y, linear.V2.Y, linear.V3.Y, origin.Y,
                 linear.V1.Z, linear.V2.Z, linear.V3.Z, origin.Z,
             ]);
-            json.WriteBoolean("isMirrored", placed.Model is FractalModel { Fractal.PreservesOrientation: false } || linear.Determinant() < 0);
+            var turnsOver = linear.Determinant() < 0 || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
+            json.WriteBoolean("isMirrored", turnsOver);
             WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
             var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;
             WebMesh.WriteNumbers(json, "whole", [.. WebMesh.Components(bounds.Centre), .. WebMesh.Components(bounds.Size)]);

@@ -1,9 +1,10 @@
 // Buffers, programs and targets of WebGL2.
 class Gpu {
-  constructor(canvas) {
+  constructor(canvas, shaders) {
     const gl = canvas.getContext("webgl2", { antialias: false, powerPreference: "high-performance" });
     if (!gl) throw new Error("this browser has no WebGL2");
     this.gl = gl;
+    this.shaders = shaders;
     this.hasFloats = Boolean(gl.getExtension("EXT_color_buffer_float"));
     this.scene = this.program("scene.vert", "scene.frag");
     this.shadow = this.program("scene.vert", "shadow.frag");
@@ -23,7 +24,7 @@ class Gpu {
     const { gl } = this, program = gl.createProgram();
     for (const [name, kind] of [[vertex, gl.VERTEX_SHADER], [fragment, gl.FRAGMENT_SHADER]]) {
       const shader = gl.createShader(kind);
-      const text = id => document.getElementById(id).textContent.replace(/#include (\S+)/g, (_, other) => text(other));
+      const text = id => this.shaders[id].replace(/#include (\S+)/g, (_, other) => text(other));
       gl.shaderSource(shader, text(name).replace("\n", "\n" + symbols));
       gl.compileShader(shader);
       if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(name + ": " + gl.getShaderInfoLog(shader));
@@ -182,7 +183,8 @@ class Gpu {
     gl.vertexAttrib3f(3, 1, 1, 1);
     this.bind(6, list.texture);
     this.use(program, { instances: 6, counts: [mesh.count, mesh.copies, list.count] });
-    gl.drawElementsInstanced(gl.TRIANGLES, batch.count * mesh.copies, gl.UNSIGNED_INT, 4 * batch.start, Math.ceil(list.count / mesh.copies));
+    const draws = Math.ceil(list.count / mesh.copies);
+    gl.drawElementsInstanced(gl.TRIANGLES, batch.count * mesh.copies, gl.UNSIGNED_INT, 4 * batch.start, draws);
   }
 
   bind(unit, texture) {

@@ -52,8 +52,9 @@ class OcclusionBuffer {
     const ax = v[a], ay = v[a + 1], bx = v[b] - ax, by = v[b + 1] - ay, cx = v[c] - ax, cy = v[c + 1] - ay;
     const area = bx * cy - by * cx;
     if (area === 0) return;
-    const x0 = Math.max(0, Math.ceil(ax + Math.min(0, bx, cx) - 0.5)), x1 = Math.min(this.width - 1, Math.floor(ax + Math.max(0, bx, cx) - 0.5));
-    const y0 = Math.max(0, Math.ceil(ay + Math.min(0, by, cy) - 0.5)), y1 = Math.min(this.height - 1, Math.floor(ay + Math.max(0, by, cy) - 0.5));
+    const x0 = Math.max(0, Math.ceil(ax + Math.min(0, bx, cx) - 0.5)), y0 = Math.max(0, Math.ceil(ay + Math.min(0, by, cy) - 0.5));
+    const x1 = Math.min(this.width - 1, Math.floor(ax + Math.max(0, bx, cx) - 0.5));
+    const y1 = Math.min(this.height - 1, Math.floor(ay + Math.max(0, by, cy) - 0.5));
     const db = v[b + 2] - v[a + 2], dc = v[c + 2] - v[a + 2];
     for (let y = y0; y <= y1; y++) {
       const py = y + 0.5 - ay;

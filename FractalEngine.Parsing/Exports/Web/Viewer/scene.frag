@@ -33,7 +33,9 @@ layout(location = 2) out vec4 facing;   // unit normal; w: part of ambient light
 #include lit.glsl
 
 void main() {
-  if (opacity < 1.0 && fract(sin(dot(gl_FragCoord.xy, vec2(12.9898, 78.233)) + seed) * 43758.5453) >= opacity) discard;
+  // What is transparent is left out in a part of the frames, at each pixel in others (J. Jimenez, "Next Generation Post Processing in
+  // Call of Duty: Advanced Warfare", 2014).
+  if (opacity < 1.0 && fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))) + seed) >= opacity) discard;
   vec3 n = normalize(gl_FrontFacing ? pixelNormal : -pixelNormal);
   vec3 surface = pixelColour;
   if (isTextured) {

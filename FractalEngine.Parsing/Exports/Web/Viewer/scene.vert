@@ -28,7 +28,8 @@ void main() {
     return;
   }
   ivec2 at = ivec2(number % 400 * 5, number / 400);
-  vec4 row0 = texelFetch(instances, at, 0), row1 = texelFetch(instances, at + ivec2(1, 0), 0), row2 = texelFetch(instances, at + ivec2(2, 0), 0);
+  vec4 row0 = texelFetch(instances, at, 0), row1 = texelFetch(instances, at + ivec2(1, 0), 0);
+  vec4 row2 = texelFetch(instances, at + ivec2(2, 0), 0);
   vec4 shade = texelFetch(instances, at + ivec2(3, 0), 0), tint = texelFetch(instances, at + ivec2(4, 0), 0);
   vec4 p = vec4(position, 1.0);
   pixelPosition = toWorld * vec3(dot(row0, p), dot(row1, p), dot(row2, p)) + offset;

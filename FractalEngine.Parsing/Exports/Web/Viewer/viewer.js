@@ -2,11 +2,15 @@
 // Four ways to lay pixels over the scene, with the shadows of six directions each.
 const FRAMES = 24, JITTERS = 4, FINEST = 2, BUDGET = 300000;
 
+// Points of a square around 0, the next always where there is most room (M. Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences", 2018).
+const spread = i => [(0.5 + 0.7548776662 * i) % 1 - 0.5, (0.5 + 0.569840291 * i) % 1 - 0.5];
+
 class Viewer {
   constructor(scene) {
     this.scene = scene;
     this.canvas = document.getElementById("canvas");
-    this.gpu = new Gpu(this.canvas);
+    this.gpu = new Gpu(this.canvas, scene.shaders);
     const meshes = scene.meshes.map(mesh => this.gpu.mesh(mesh));
     this.fractals = scene.fractals.map(data => new Levels(data));
     this.objects = scene.objects.map(object => this.prepare(object, meshes));
@@ -16,7 +20,7 @@ class Viewer {
     this.part = 1;
     this.lastMove = 0;
     this.directions = Array.from({ length: FRAMES }, (_, i) => {
-      const y = 1 - 2 * ((0.5 + 0.7548776662 * (i + 1)) % 1), angle = 2 * Math.PI * ((0.5698402910 * (i + 1)) % 1), r = Math.sqrt(1 - y * y);
+      const [a, b] = spread(i + 1), y = -2 * a, angle = 2 * Math.PI * b, r = Math.sqrt(1 - y * y);
       return [r * Math.cos(angle), y, r * Math.sin(angle)];
     });
     this.camera = new OrbitCamera(this.canvas, scene, (x, y) => this.depthAt(x, y), () => this.change());
@@ -133,7 +137,7 @@ class Viewer {
 
   step(time) {
     const ratio = Math.min(devicePixelRatio, 2);
-    const width = Math.max(1, Math.round(this.canvas.clientWidth * ratio)), height = Math.max(1, Math.round(this.canvas.clientHeight * ratio));
+    const [width, height] = [this.canvas.clientWidth, this.canvas.clientHeight].map(size => Math.max(1, Math.round(size * ratio)));
     if (width !== this.canvas.width || height !== this.canvas.height || !this.gpu.drawn) {
       Object.assign(this.canvas, { width, height });
       this.gpu.resize(width, height);
@@ -164,7 +168,7 @@ class Viewer {
     this.lastFrame = time;
     this.tell("moving");
     const walk = new Walk(this.objects, this.view(this.movingSize), this.occlusion, 60000);
-    walk.run(performance.now() + 40);
+    if (!walk.run(performance.now() + 40) || walk.isOver) this.movingSize *= 1.5;
     this.list(walk, "main");
     if (!this.key) this.key = this.shadow(this.gpu.keyMap, "key", this.keyDirection(), 6);
     this.draw(walk.view);
@@ -174,24 +178,29 @@ class Viewer {
   // Draws finer and finer, step by step, then gathers frames.
   *refine() {
     this.tell("refining");
-    let view;
-    for (let size = Math.max(FINEST, 0.5 * this.movingSize); ; size = Math.max(FINEST, 0.5 * size)) {
+    let view, isOver = false;
+    for (let size = Math.max(FINEST, 0.5 * this.movingSize); ;) {
       view = this.view(size);
       const walk = new Walk(this.objects, view, this.occlusion, BUDGET);
       while (!walk.run(performance.now() + 14)) yield;
-      if (walk.isOver) break;
+      if (walk.isOver) {
+        isOver = true;
+        size *= 1.5;
+        continue;
+      }
       this.list(walk, "main");
       this.draw(view);
       yield;
-      if (size === FINEST) break;
+      if (isOver || size === FINEST) break;
+      size = Math.max(FINEST, 0.5 * size);
     }
     this.key = this.shadow(this.gpu.keyMap, "key", this.keyDirection(), 4);
     for (let i = 0; i < (this.gpu.hasFloats ? FRAMES : 1); i++) {
       yield;
       const jitter = Math.floor(i * JITTERS / FRAMES), direction = this.directions[i];
       if (i * JITTERS % FRAMES === 0) {
-        this.draw(view, [((0.7548776662 * jitter + 0.5) % 1 - 0.5) * 2 / view.width, ((0.5698402910 * jitter + 0.5) % 1 - 0.5) * 2 / view.height],
-          i);
+        const [x, y] = spread(jitter);
+        this.draw(view, [2 * x / view.width, 2 * y / view.height], jitter / JITTERS);
       }
       this.gather(view, direction, i === 0);
       if (i % 4 === 3) this.present(i + 1);
@@ -240,7 +249,8 @@ class Viewer {
     const half = 0.5 * Math.max(high[0] - low[0], high[1] - low[1]), middle = [0, 1].map(k => 0.5 * (low[k] + high[k]));
     const origin = add(add(this.origin, axes[0], middle[0]), axes[1], middle[1]), focal = 0.5 * map.size / half;
     map.occlusion ??= new OcclusionBuffer(map.size, map.size);
-    const view = { axes, origin, focal, width: map.size, height: map.size, minSize, maxDepth: this.maxDepth, isParallel: true, end: high[2] };
+    const size = { width: map.size, height: map.size, minSize, maxDepth: this.maxDepth };
+    const view = { axes, origin, focal, ...size, isParallel: true, end: high[2] };
     const walk = new Walk(this.objects, view, map.occlusion, BUDGET);
     walk.run(Infinity);
     this.list(walk, name);
@@ -255,7 +265,10 @@ class Viewer {
       projection: [1 / half, 1 / half, 2 / (far - near), -(far + near) / (far - near)],
     });
     for (const { mesh, lists } of this.objects) {
-      if (lists[name].count > 0) mesh.batches.forEach(batch => this.gpu.draw(this.gpu.shadow, mesh, batch, lists[name]));
+      for (const batch of lists[name].count > 0 ? mesh.batches : []) {
+        const material = this.scene.materials[batch.material];
+        if (!(material?.opacity < 1)) this.gpu.draw(this.gpu.shadow, mesh, batch, lists[name]);
+      }
     }
     return { axes, origin, half, near, far, texel: 2 * half / map.size, direction };
   }
@@ -263,9 +276,9 @@ class Viewer {
   // The map from a point relative to the camera to a shadow map, by columns.
   toShadow(shadow) {
     if (!shadow) return [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, -1, -1, -1, 1];
-    const offset = subtract(this.camera.position, shadow.origin), factors = [0.5 / shadow.half, 0.5 / shadow.half, 1 / (shadow.far - shadow.near)];
-    const rows = shadow.axes.map((axis, k) => [...scale(axis, factors[k]), (dot(axis, offset) - (k === 2 ? shadow.near : 0)) * factors[k]
-      + (k === 2 ? 0 : 0.5)]);
+    const { axes, origin, half, near, far } = shadow, offset = subtract(this.camera.position, origin);
+    const ends = [[-half, half], [-half, half], [near, far]];
+    const rows = axes.map((axis, k) => [...axis, dot(axis, offset) - ends[k][0]].map(x => x / (ends[k][1] - ends[k][0])));
     return [0, 1, 2, 3].flatMap(column => [rows[0][column], rows[1][column], rows[2][column], column === 3 ? 1 : 0]);
   }
 
@@ -282,10 +295,9 @@ class Viewer {
     const far = Math.max(this.farthest, 1e-12) * 1.01, near = clamp(this.nearest * 0.9, 1e-5 * far, 0.5 * far);
     const lights = scene.lights, position = light => light.position ? subtract(light.position, camera.position) : scale(light.axis, -1);
     gpu.bind(0, gpu.keyMap.texture);
-    const ambient = { above: scene.ambient.slice(0, 3), below: scene.ambient.slice(3, 6), curvature: scene.ambient.slice(6) };
     const display = { display: scene.display, background: [...scene.background, scene.sky ? 0 : 1] };
     gpu.use(program, {
-      ...ambient, ...display, toWorld: [...listed.axes[0], ...listed.axes[1], ...listed.axes[2]], offset: subtract(listed.origin, camera.position),
+      ...scene.ambient, ...display, toWorld: listed.axes.flat(), offset: subtract(listed.origin, camera.position),
       toCamera: [0, 1, 2].flatMap(k => [right[k], up[k], forward[k]]), jitter: jitter || [0, 0], isParallel: 0, seed,
       projection: [1 / slopes[0], 1 / slopes[1], (far + near) / (far - near), -2 * far * near / (far - near)],
       lightCount: lights.length, lightColours: lights.flatMap(light => [...light.colour, light.position ? 1 : 0]),
@@ -311,10 +323,9 @@ class Viewer {
       }
     }
     // Behind all surfaces, so that only what they leave is computed.
-    const sky = scene.sky || [0, 0, 0, 0, 0, 0, 0, 0, 0];
     gl.disable(gl.CULL_FACE);
     gpu.fill(jitter ? gpu.sky : gpu.finalSky, {
-      ...display, fromCamera: [...right, ...up, ...forward], slopes, zenith: sky.slice(0, 3), horizon: sky.slice(3, 6), ground: sky.slice(6),
+      ...display, fromCamera: view.axes.flat(), slopes, zenith: [0, 0, 0], horizon: [0, 0, 0], ground: [0, 0, 0], ...scene.sky,
     });
     if (this.part < 1) {
       gl.bindFramebuffer(gl.DRAW_FRAMEBUFFER, null);
@@ -326,14 +337,13 @@ class Viewer {
   skyLight([, y]) {
     const { sky, ambient } = this.scene;
     const mix = (from, to, part) => [0, 1, 2].map(k => from[k] + part * (to[k] - from[k]));
-    if (!sky) return mix(ambient.slice(3, 6), ambient.slice(0, 3), 0.5 + 0.5 * y);
-    return y >= 0 ? mix(sky.slice(3, 6), sky.slice(0, 3), y) : mix(sky.slice(3, 6), sky.slice(6), Math.sqrt(-y));
+    if (!sky) return mix(ambient.below, ambient.above, 0.5 + 0.5 * y);
+    return y >= 0 ? mix(sky.horizon, sky.zenith, y) : mix(sky.horizon, sky.ground, Math.sqrt(-y));
   }
 
   // Adds the frame to the sum of those before, or begins a new one, with the shadows of a direction of the sky.
   gather(view, direction, isFirst) {
     const { gpu, scene } = this, { gl } = gpu, shadow = direction && this.shadow(gpu.skyMap, "sky", scale(direction, -1), 12);
-    const { axes: [right, up, forward] } = view;
     gl.bindFramebuffer(gl.FRAMEBUFFER, gpu.sum.frame);
     gl.viewport(0, 0, gpu.width, gpu.height);
     gl.disable(gl.DEPTH_TEST);
@@ -343,8 +353,7 @@ class Viewer {
     gpu.drawn.textures.forEach((texture, i) => gpu.bind(3 + i, texture));
     gpu.bind(1, gpu.skyMap.texture);
     gpu.fill(gpu.gather, {
-      direct: 3, reflected: 4, facing: 5, skyShadow: 1, fromCamera: [...right, ...up, ...forward], slopes: this.slopes,
-      above: scene.ambient.slice(0, 3), below: scene.ambient.slice(3, 6), curvature: scene.ambient.slice(6),
+      direct: 3, reflected: 4, facing: 5, skyShadow: 1, fromCamera: view.axes.flat(), slopes: this.slopes, ...scene.ambient,
       skyMap: this.toShadow(shadow), texel: shadow ? shadow.texel : 0, skyDirection: shadow ? [...direction, 1] : [0, 1, 0, 0],
       skyRadiance: this.skyLight(direction || [0, 1, 0]),
     });

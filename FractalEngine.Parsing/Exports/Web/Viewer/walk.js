@@ -61,7 +61,8 @@ class Walk {
   project(f, item) {
     const m = this.frames, v = this.levels.values, b = item.box, view = this.view;
     const cx = v[b], cy = v[b + 1], cz = v[b + 2], hx = v[b + 3], hy = v[b + 4], hz = v[b + 5];
-    const x = m[f] * cx + m[f + 1] * cy + m[f + 2] * cz + m[f + 3], rx = Math.abs(m[f]) * hx + Math.abs(m[f + 1]) * hy + Math.abs(m[f + 2]) * hz;
+    const x = m[f] * cx + m[f + 1] * cy + m[f + 2] * cz + m[f + 3];
+    const rx = Math.abs(m[f]) * hx + Math.abs(m[f + 1]) * hy + Math.abs(m[f + 2]) * hz;
     const y = m[f + 4] * cx + m[f + 5] * cy + m[f + 6] * cz + m[f + 7];
     const ry = Math.abs(m[f + 4]) * hx + Math.abs(m[f + 5]) * hy + Math.abs(m[f + 6]) * hz;
     const z = m[f + 8] * cx + m[f + 9] * cy + m[f + 10] * cz + m[f + 11];
