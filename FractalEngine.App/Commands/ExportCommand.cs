@@ -65,7 +65,8 @@ internal static class ExportCommand
         if (format is not null)
         {
             ExportSummary? summary = null;
-            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, new() { Load = options }, stream)));
+            var settings = new ExportSettings { Load = options };
+            report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(file.Scene, settings, stream)));
             report.Written(output, summary!.Contents);
             foreach (var loss in summary.Losses)
             {

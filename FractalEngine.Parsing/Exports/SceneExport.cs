@@ -12,7 +12,7 @@ public abstract class SceneExport
     /// <summary>Whether a mesh or fractal that is opened alone is loaded with sky, sun and colours, as for images.</summary>
     public virtual bool IsStaged => false;
 
-    /// <summary>Writes a scene.</summary>
+    /// <summary>Writes a scene as a file of the format.</summary>
     /// <param name="scene">Scene whose objects have their models.</param>
     /// <param name="settings">Limits, and how much of the levels is kept.</param>
     /// <param name="stream">Receives the file from its beginning to its end; it is not read, and need not be able to seek.</param>

@@ -41,7 +41,7 @@ internal abstract class LevelPick
         /// <summary>The lowest level of the recursives.</summary>
         public long FirstLevel => firstLevel;
 
-        /// <summary>Number of recursives.</summary>
+        /// <summary>Number of recursives that take turns.</summary>
         public int Period => period;
 
         /// <summary>The highest level of the recursives.</summary>

@@ -31,7 +31,7 @@ internal sealed class WebScene
     private readonly List<string> _textures = [];
     private int _sliders;
 
-    /// <summary>Prepares a scene.</summary>
+    /// <summary>Lists the models of a scene, with their levels.</summary>
     /// <param name="scene">Scene whose objects have their models.</param>
     /// <param name="settings">How its files were loaded.</param>
     /// <param name="losses">Receives what the page can't show, a sentence each.</param>
@@ -54,7 +54,7 @@ internal sealed class WebScene
         CultureInfo.InvariantCulture,
         $"{Count(_objects.Length, "object")}, {Count(_levels.Sum(static one => one.Count), "level")}, {Count(_sliders, "slider")}");
 
-    /// <summary>Writes the scene.</summary>
+    /// <summary>Writes the data of the page, shaders included.</summary>
     /// <returns>JSON, UTF-8.</returns>
     public byte[] Write()
     {
