@@ -195,12 +195,14 @@ class Viewer {
       size = Math.max(FINEST, 0.5 * size);
     }
     this.key = this.shadow(this.gpu.keyMap, "key", this.keyDirection(), 4);
+    // What is transparent is left out in a part of the frames, so that each has to differ.
+    const jitters = this.scene.materials.some(material => material.opacity < 1) ? FRAMES : JITTERS;
     for (let i = 0; i < (this.gpu.hasFloats ? FRAMES : 1); i++) {
       yield;
-      const jitter = Math.floor(i * JITTERS / FRAMES), direction = this.directions[i];
-      if (i * JITTERS % FRAMES === 0) {
+      const jitter = Math.floor(i * jitters / FRAMES), direction = this.directions[i];
+      if (i * jitters % FRAMES === 0) {
         const [x, y] = spread(jitter);
-        this.draw(view, [2 * x / view.width, 2 * y / view.height], jitter / JITTERS);
+        this.draw(view, [2 * x / view.width, 2 * y / view.height], jitter / jitters);
       }
       this.gather(view, direction, i === 0);
       if (i % 4 === 3) this.present(i + 1);
