@@ -377,6 +377,7 @@ class Viewer {
 
   // The depth of what a pixel shows, as the walk has found it; 0 for the sky. Large meshes are drawn to find theirs.
   depthAt(x, y) {
+    if (!this.occlusion) return 0;
     const { gl, width, height, drawn } = this.gpu, ratio = width / this.canvas.clientWidth;
     const column = Math.floor(x * ratio), row = height - 1 - Math.floor(y * ratio), near = this.occlusion.near[row * width + column];
     if (near > 0 || this.objects.every(object => object.mesh.canHide) || !this.gpu.hasFloats) return near > 0 ? 1 / near : 0;
