@@ -13,6 +13,7 @@ using FractalEngine.Parsing.Exports.Csv;
 using FractalEngine.Parsing.Exports.Ply;
 using FractalEngine.Parsing.Exports.Stl;
 using FractalEngine.Parsing.Exports.ThreeMf;
+using FractalEngine.Parsing.Exports.Web;
 using FractalEngine.Parsing.Wavefront.Writing;
 
 namespace FractalEngine.App.Commands;
@@ -21,7 +22,10 @@ namespace FractalEngine.App.Commands;
 internal static class ExportCommand
 {
     // Beside OBJ, which has a file for its materials.
-    private static readonly ImmutableArray<SceneExport> Formats = [new PlyExport(), new StlExport(), new ThreeMfExport(), new CsvExport()];
+    private static readonly ImmutableArray<SceneExport> Formats =
+    [
+        new PlyExport(), new StlExport(), new ThreeMfExport(), new CsvExport(), new WebExport(),
+    ];
 
     private static string Endings { get; } = string.Join('|', [".obj", .. Formats.Select(static format => format.Ending)]);
 
@@ -57,6 +61,8 @@ internal static class ExportCommand
             throw new FractalLimitException($"--depth {options.Depth} exceeds the limit of {FractalLimits.Depth.Value}");
         }
 
+        var format = Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase));
+        options = options with { IsStaged = format?.IsStaged == true };
         var file = report.Measure("load", () => ConsoleLoader.Load(path, options));
         InputFiles.Protect(output);
         if (options.Depth is not null && !file.Scene.Models.Any(model => model is FractalModel { Fractal.Description.HasDepth: true }))
@@ -73,9 +79,10 @@ internal static class ExportCommand
             remark = $", {JoinedScene.Describe(scene)}";
         }
 
-        if (Formats.FirstOrDefault(one => output.EndsWith(one.Ending, StringComparison.OrdinalIgnoreCase)) is { } format)
+        if (format is not null)
         {
             ExportSummary? summary = null;
+            settings = settings with { Load = options };
             report.Measure("write", () => OutputFile.Write(output, stream => summary = format.Write(scene, settings, stream)));
             report.Written(output, summary!.Contents + remark);
             foreach (var loss in summary.Losses)

@@ -201,7 +201,7 @@ public sealed class Fractal : IEquatable<Fractal>
     private Fractal? Whole { get; init; }
 
     /// <summary>The box of what this is a part of.</summary>
-    internal BoundingBox WholeBounds => (Whole ?? this).Bounds;
+    public BoundingBox WholeBounds => (Whole ?? this).Bounds;
 
     /// <summary>The base meshes and all parts.</summary>
     internal FractalGraph Graph { get; }

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Parsing.Assets;
 
 namespace FractalEngine.Parsing.Exports;
 
@@ -26,4 +27,6 @@ public sealed record ExportSettings
 
     /// <summary>Height of the whole scene in the file, in its unit, which decides the length of a scene unit; null for none.</summary>
     public double? Height { get; init; }
+    /// <summary>How the scene's files were loaded, for formats that load them again at other values of their numbers.</summary>
+    public LoadOptions Load { get; init; } = new();
 }

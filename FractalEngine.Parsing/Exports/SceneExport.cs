@@ -9,6 +9,9 @@ public abstract class SceneExport
     /// <summary>The ending of its files, with the dot.</summary>
     public abstract string Ending { get; }
 
+    /// <summary>Whether a mesh or fractal that is opened alone is loaded with sky, sun and colours, as for images.</summary>
+    public virtual bool IsStaged => false;
+
     /// <summary>Writes a scene as a file of the format.</summary>
     /// <param name="scene">Scene whose objects have their models.</param>
     /// <param name="settings">Limits, and how much of the levels is kept.</param>

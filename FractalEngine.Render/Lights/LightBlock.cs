@@ -3,7 +3,6 @@ using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Gl.State;
@@ -55,13 +54,7 @@ internal sealed class LightBlock : IDisposable
     /// Returns the lights of a scene that shine from somewhere, the first <see cref="MaxLights"/> of them: those that it declares, or the
     /// default ones.
     /// </summary>
-    public static ImmutableArray<Emitter> LightsOf(LoadedScene scene)
-    {
-        var lights = SceneAmbient.UsesDefaultLights(scene.Scene)
-            ? DefaultLights(scene.Bounds, scene.Scene.Handedness)
-            : scene.Scene.Lights;
-        return [.. lights.Select(static light => light.ToEmitter()).OfType<Emitter>().Take(MaxLights)];
-    }
+    public static ImmutableArray<Emitter> LightsOf(LoadedScene scene) => [.. SceneLights.Of(scene).Take(MaxLights)];
 
     /// <summary>Returns the bounds of all surfaces that are lights, world space; empty without any.</summary>
     public static BoundingBox SurfacesOf(LoadedScene scene) => LightsOf(scene).Aggregate(
@@ -107,24 +100,6 @@ internal sealed class LightBlock : IDisposable
 
         var colour = (scene.Fog?.Colour ?? scene.Background ?? background).ToLinearVector();
         return scene.Fog?.Colour is null ? DisplayTransform.Of(scene).Invert(colour) : colour;
-    }
-
-    /// <summary>
-    /// Returns a warm key light from the upper left and a weak cool one from the right, so that three sides of a cube differ.
-    /// </summary>
-    /// <param name="bounds">Bounds of the scene, world space.</param>
-    /// <param name="handedness">How the scene is shown: the lights stand on the same sides of the image in both.</param>
-    /// <remarks>The key light is near enough for its falloff to show, so that a large flat face does not look like paper.</remarks>
-    public static ImmutableArray<Light> DefaultLights(BoundingBox bounds, Handedness handedness = Handedness.Left)
-    {
-        var key = handedness.Mirror(new Vector(-0.42, 0.80, -0.62)).UnitVector();
-        var distance = 1.8 * bounds.FiniteDiagonalOr(1);
-        return
-        [
-            // At a tenth of its range, which is the scene's centre, it has its full intensity.
-            new PointLight(bounds.Centre + (distance * key), new(1, 0.975, 0.93), 0.80, 10 * distance),
-            new DirectionalLight(handedness.Mirror(new(-0.85, -0.2, 0.35)), new(0.86, 0.89, 1), 0.24),
-        ];
     }
 
     /// <summary>

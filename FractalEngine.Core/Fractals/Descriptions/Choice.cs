@@ -62,6 +62,12 @@ public sealed record Choice
     /// <summary>True where all places with as many calls above them have the same alternative.</summary>
     public bool IsByLevel { get; }
 
+    /// <summary>Ends of the alternatives' shares of 2⁶⁴ hashes.</summary>
+    internal ImmutableArray<ulong> Ends => [.. _ends];
+
+    /// <summary>What is added to the number of a way before its bits are mixed.</summary>
+    internal ulong Start => _start;
+
     /// <summary>
     /// Where levels decide, the first level of each alternative: 0 for the outermost one of the recursive, and ascending. Empty where chance
     /// decides.

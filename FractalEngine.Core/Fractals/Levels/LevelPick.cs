@@ -41,6 +41,15 @@ internal abstract class LevelPick
     /// <param name="period">Number of recursives.</param>
     internal sealed class ByChance(Choice choice, long firstLevel, int period) : LevelPick
     {
+        /// <summary>The weights and the seed.</summary>
+        public Choice Choice => choice;
+
+        /// <summary>The lowest level of the recursives.</summary>
+        public long FirstLevel => firstLevel;
+
+        /// <summary>Number of recursives that take turns.</summary>
+        public int Period => period;
+
         /// <summary>The highest level of the recursives.</summary>
         public long TopLevel { get; set; }
 
@@ -67,6 +76,9 @@ internal abstract class LevelPick
     /// <param name="limit">The largest number of a size that is not too small yet.</param>
     internal sealed class BySize(long limit) : LevelPick
     {
+        /// <summary>The largest number of a size that is not too small yet.</summary>
+        public long Limit => limit;
+
         /// <inheritdoc/>
         public override bool DependsOnSize => true;
 

@@ -1,9 +1,8 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
 
-namespace FractalEngine.Render.Lights;
+namespace FractalEngine.Core.Scenes;
 
 /// <summary>
 /// The light of a scene that comes from all around: its ambient lights and its sky, or the default of a scene without lights.
@@ -14,7 +13,7 @@ namespace FractalEngine.Render.Lights;
 /// A surface whose normal has the height c is lit by (1 + c)/2 of the one, (1 − c)/2 of the other, and c² of this.
 /// </param>
 /// <param name="Sides">What a sky that differs from side to side adds, see <see cref="SkyIrradiance"/>; empty for others.</param>
-internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector Curvature, ImmutableArray<Vector> Sides)
+public readonly record struct SceneAmbient(Vector Above, Vector Below, Vector Curvature, ImmutableArray<Vector> Sides)
 {
     /// <summary>Whether no light comes from all around.</summary>
     public bool IsDark => Above == Vector.Zero && Below == Vector.Zero && Curvature == Vector.Zero && Sides.IsEmpty;
@@ -22,6 +21,7 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
     /// <summary>Adds up what a scene declares, its sky included.</summary>
     public static SceneAmbient Of(Scene scene)
     {
+        ArgumentNullException.ThrowIfNull(scene);
         var lights = OfLights(scene);
         if (scene.Sky is not { } sky)
         {
@@ -35,6 +35,7 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
     /// <summary>Adds up the ambient lights. A scene without any light has the light of a sky over dry ground.</summary>
     public static SceneAmbient OfLights(Scene scene)
     {
+        ArgumentNullException.ThrowIfNull(scene);
         if (UsesDefaultLights(scene))
         {
             return new(new(0.23, 0.245, 0.28), new(0.11, 0.10, 0.095), Vector.Zero, []);
@@ -46,5 +47,5 @@ internal readonly record struct SceneAmbient(Vector Above, Vector Below, Vector 
     }
 
     /// <summary>Whether a scene is lit by the default lights, since it declares none of any kind.</summary>
-    public static bool UsesDefaultLights(Scene scene) => scene.Lights.IsEmpty && scene.Sky is null;
+    internal static bool UsesDefaultLights(Scene scene) => scene.Lights.IsEmpty && scene.Sky is null;
 }

@@ -1,0 +1,270 @@
+using System.Collections.Immutable;
+using System.Globalization;
+using System.Text.Json;
+using FractalEngine.Core.Files;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
+
+namespace FractalEngine.Parsing.Exports.Web;
+
+/// <summary>A scene as a page keeps it, in JSON: camera, lights, materials, meshes, levels, objects and numbers.</summary>
+/// <remarks>All colours are linear light.</remarks>
+internal sealed class WebScene
+{
+    // The shape of the image for which a camera frames the scene.
+    private const double Aspect = 16 / 9.0;
+
+    // Sixteen fit the shader, as in drawn images.
+    private const int MaxLights = 16;
+
+    private readonly LoadedScene _scene;
+    private readonly ExportSettings _settings;
+    private readonly ISet<string> _losses;
+    private readonly ImmutableArray<PlacedModel> _objects;
+    private readonly List<Model> _models;
+    private readonly List<WebLevels> _levels;
+    private readonly List<Material> _materials = [];
+    private readonly List<MaterialTexture> _textures = [];
+    private int _sliders;
+
+    /// <summary>Lists the models of a scene, with their levels.</summary>
+    /// <param name="scene">Scene whose objects have their models.</param>
+    /// <param name="settings">How its files were loaded.</param>
+    /// <param name="losses">Receives what the page can't show, a sentence each.</param>
+    public WebScene(LoadedScene scene, ExportSettings settings, ISet<string> losses)
+    {
+        _scene = scene;
+        _settings = settings;
+        _losses = losses;
+        _objects = [.. scene.ByParts().Objects.Where(static placed => placed.Model.Mesh.FaceCount > 0)];
+        _models = [.. _objects.Select(static placed => placed.Model).Distinct()];
+        _levels = [.. _models.Select(static model => new WebLevels(
+            model is FractalModel fractal ? fractal.Fractal : Core.Fractals.Fractal.Of(model.Mesh)))];
+    }
+
+    /// <summary>The title of the page.</summary>
+    public string Title => _models.Count == 1 ? Path.GetFileNameWithoutExtension(_models[0].Name) : "scene";
+
+    /// <summary>What the page holds, in a few words.</summary>
+    public string Describe() => string.Create(
+        CultureInfo.InvariantCulture,
+        $"{Count(_objects.Length, "object")}, {Count(_levels.Sum(static one => one.Count), "level")}, {Count(_sliders, "slider")}");
+
+    /// <summary>Writes the data of the page, shaders included.</summary>
+    /// <returns>JSON, UTF-8.</returns>
+    public byte[] Write()
+    {
+        using var stream = new MemoryStream();
+        using (var json = new Utf8JsonWriter(stream))
+        {
+            json.WriteStartObject();
+            WebPage.WriteShaders(json);
+            WriteView(json);
+            WriteLights(json);
+            json.WriteStartArray("meshes");
+            foreach (var model in _models)
+            {
+                new WebMesh(model).Write(json, NumberOf);
+            }
+
+            json.WriteEndArray();
+            json.WriteStartArray("fractals");
+            foreach (var levels in _levels)
+            {
+                WriteLevels(json, levels);
+            }
+
+            json.WriteEndArray();
+            WriteObjects(json);
+            WriteMaterials(json);
+            _sliders = new WebNumbers(_models, _levels, _settings.Load, _losses).Write(json);
+            json.WriteEndObject();
+        }
+
+        return stream.ToArray();
+    }
+
+    /// <summary>Writes levels as a JSON object.</summary>
+    public static void WriteLevels(Utf8JsonWriter json, WebLevels levels)
+    {
+        json.WriteStartObject();
+        json.WritePropertyName("shape");
+        json.WriteRawValue(levels.Shape);
+        WebMesh.WriteNumbers(json, "values", levels.Values);
+        json.WriteEndObject();
+    }
+
+    private static string Count(int number, string noun) =>
+        string.Create(CultureInfo.InvariantCulture, $"{number} {noun}{(number == 1 ? "" : "s")}");
+
+    private void WriteView(Utf8JsonWriter json)
+    {
+        var scene = _scene.Scene;
+        var camera = scene.Camera ?? CameraFraming.Default(_scene, scene.Aspect ?? Aspect);
+        var bounds = _scene.Bounds.IsEmpty ? new(Vector.Zero, Vector.Zero) : _scene.Bounds;
+        Lose(scene.Projection == Projection.Orthographic, "the page shows perspective, not an orthographic view");
+        Lose(camera.Aperture > 0, "the page shows everything sharp, not by a lens");
+        Lose(scene.Film is not null, "the page does not play the film");
+        Lose(_objects.Any(static one => one.Declaration is PhysicsObject or { Motion: not null }), "in the page nothing moves by itself");
+        json.WriteStartObject("camera");
+        WriteVector(json, "position", camera.Position);
+        var (right, up, forward) = camera.LocalAxes;
+        WebMesh.WriteNumbers(json, "axes", [.. new[] { right, up, forward }.SelectMany(WebMesh.Components)]);
+        json.WriteNumber("slope", camera.HalfHeightAtUnitDepth);
+        json.WriteNumber("aspect", scene.Aspect ?? Aspect);
+        json.WriteEndObject();
+        WriteVector(json, "centre", bounds.Centre);
+        json.WriteNumber("size", bounds.FiniteDiagonalOr(1));
+    }
+
+    private void WriteLights(Utf8JsonWriter json)
+    {
+        var scene = _scene.Scene;
+        Lose(scene.HasAutoExposure, "the page keeps the exposure that the scene states, and does not find its own");
+        Lose(scene.Sky is ImageSky, "the sky is no image in the page, but has the colours of its light");
+        Lose(scene.Fog is { IsLit: true }, "haze has no shafts of light in the page");
+        Lose(scene.Background is not null && scene.Sky is not null, "the page shows the sky, not the background before it");
+        var ambient = SceneAmbient.Of(scene);
+        json.WriteStartObject("ambient");
+        WriteVector(json, "above", ambient.Above);
+        WriteVector(json, "below", ambient.Below);
+        WriteVector(json, "curvature", ambient.Curvature);
+        json.WriteEndObject();
+        if (scene.Sky is { } sky)
+        {
+            var radiance = sky.ToRadiance(scene.Handedness);
+            json.WriteStartObject("sky");
+            WriteVector(json, "zenith", radiance.At(Vector.J));
+            WriteVector(json, "horizon", sky.HorizonRadiance);
+            WriteVector(json, "ground", radiance.At(-Vector.J));
+            json.WriteEndObject();
+        }
+
+        WriteVector(json, "background", (scene.Background ?? new(0.118, 0.133, 0.161)).ToLinearVector());
+        WebMesh.WriteNumbers(json, "display", [(int)scene.Tone, scene.Exposure, scene.Fog?.Density ?? 0]);
+        WriteVector(json, "fog", scene.Fog?.Colour?.ToLinearVector() ?? scene.Sky?.HorizonRadiance
+            ?? (scene.Background ?? new(0.118, 0.133, 0.161)).ToLinearVector());
+        json.WriteStartArray("lights");
+        foreach (var light in SceneLights.Of(_scene).Take(MaxLights))
+        {
+            json.WriteStartObject();
+            WriteVector(json, "colour", light.Radiance);
+            WriteVector(json, "axis", light.Axis);
+            if (light.Position is { } position)
+            {
+                Lose(light.HasSurface, "lamps with a surface shine from their middle in the page");
+                WriteVector(json, "position", position);
+                json.WriteNumber("range", light.Range);
+            }
+
+            WebMesh.WriteNumbers(json, "cone", light.HasCone ? [light.EdgeCosine, light.BrightCosine] : [-3, -2]);
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+    }
+
+    private void WriteObjects(Utf8JsonWriter json)
+    {
+        json.WriteStartArray("objects");
+        foreach (var (index, placed) in _objects.Index())
+        {
+            var (linear, origin) = placed.ObjectToWorld;
+            json.WriteStartObject();
+            json.WriteNumber("model", _models.IndexOf(placed.Model));
+            WebMesh.WriteNumbers(json, "map",
+            [
+                linear.V1.X, linear.V2.X, linear.V3.X, origin.X,
+                linear.V1.Y, linear.V2.Y, linear.V3.Y, origin.Y,
+                linear.V1.Z, linear.V2.Z, linear.V3.Z, origin.Z,
+            ]);
+            var turnsOver = linear.Determinant() < 0 || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
+            json.WriteBoolean("isMirrored", turnsOver);
+            WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
+            var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;
+            WebMesh.WriteNumbers(json, "whole", [.. WebMesh.Components(bounds.Centre), .. WebMesh.Components(bounds.Size)]);
+            if (placed.Declaration.Gradient is { Kind: not GradientKind.None } gradient)
+            {
+                Lose(gradient.HasSurface, "a gradient changes colours in the page, but neither roughness nor glow");
+                json.WriteNumber("gradient", (int)gradient.Kind);
+                WebMesh.WriteNumbers(json, "stops", gradient.Palette is { } palette
+                    ? palette.Stops.SelectMany(static stop => WebMesh.Components(stop.Colour.ToLinearVector()).Prepend(stop.Position))
+                    : [.. WebMesh.Components(ObjectPalette.ColourOf(placed, index).ToLinearVector()).Prepend(0),
+                        .. WebMesh.Components(gradient.EndColour.ToLinearVector()).Prepend(1)]);
+            }
+
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+    }
+
+    private void WriteMaterials(Utf8JsonWriter json)
+    {
+        json.WriteStartArray("materials");
+        foreach (var material in _materials)
+        {
+            Lose(material.IsGlossy, "surfaces of materials are matt in the page: nothing is mirrored");
+            Lose(material.DetailTexture is not null || material.OpacityTexture is not null,
+                "the page shows textures of colours alone, not those of normals, heights or opacity");
+            json.WriteStartObject();
+            WriteVector(json, "colour", material.Diffuse.ToLinearVector());
+            json.WriteNumber("opacity", material.Opacity);
+            WriteVector(json, "ambient", new(material.Ambient.Red, material.Ambient.Green, material.Ambient.Blue));
+            WriteVector(json, "emission", new(material.Emission.Red, material.Emission.Green, material.Emission.Blue));
+            if (material.Texture is { } texture)
+            {
+                var index = _textures.FindIndex(known => known.Path == texture.Path);
+                if (index < 0)
+                {
+                    index = _textures.Count;
+                    _textures.Add(texture);
+                }
+
+                json.WriteNumber("texture", index);
+                WebMesh.WriteNumbers(json, "place", [texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V]);
+                json.WriteBoolean("clamp", texture.IsClamped);
+            }
+
+            json.WriteEndObject();
+        }
+
+        json.WriteEndArray();
+        json.WriteStartArray("textures");
+        foreach (var texture in _textures)
+        {
+            json.WriteBase64StringValue(texture.Contents.IsEmpty ? File.ReadAllBytes(texture.Path) : texture.Contents.AsSpan());
+        }
+
+        json.WriteEndArray();
+    }
+
+    private int NumberOf(Material? material)
+    {
+        if (material is null)
+        {
+            return -1;
+        }
+
+        if (!_materials.Contains(material))
+        {
+            _materials.Add(material);
+        }
+
+        return _materials.IndexOf(material);
+    }
+
+    private void Lose(bool isLost, string sentence)
+    {
+        if (isLost)
+        {
+            _losses.Add(sentence);
+        }
+    }
+
+    private static void WriteVector(Utf8JsonWriter json, string name, Vector v) => WebMesh.WriteNumbers(json, name, WebMesh.Components(v));
+}
