@@ -1,8 +1,6 @@
 using System.Globalization;
-using System.Text;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Exports.Web;

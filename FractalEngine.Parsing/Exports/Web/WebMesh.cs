@@ -1,4 +1,3 @@
-using System.Globalization;
 using System.Text.Json;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;

@@ -4,7 +4,6 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Exports;
 using FractalEngine.Parsing.Exports.Web;
 using FractalEngine.Tests.Support;
 
