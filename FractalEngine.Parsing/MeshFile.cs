@@ -13,7 +13,9 @@ namespace FractalEngine.Parsing;
 public static class MeshFile
 {
     /// <summary>Reads a mesh without its materials.</summary>
-    /// <param name="path">Path of a file that ends in <c>.obj</c>, <c>.obj.gz</c>, <c>.ply</c>, <c>.stl</c>, <c>.glb</c> or <c>.gltf</c>.</param>
+    /// <param name="path">
+    /// Path of a file that ends in <c>.obj</c>, <c>.obj.gz</c>, <c>.ply</c>, <c>.stl</c>, <c>.glb</c> or <c>.gltf</c>.
+    /// </param>
     /// <exception cref="ArgumentException">The path has another ending.</exception>
     /// <exception cref="SourceException">The file can't be loaded.</exception>
     public static Mesh Read(string path)

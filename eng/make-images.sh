@@ -127,7 +127,7 @@ make_image() {
         classic-cantor) classic cantor '(1.7, 1.4, -4.4) look-at (0, -0.02, 0) 18' ;;
         classic-pythagoras) classic pythagoras '(6.14, 4.04, -9.83) look-at (0, 1.28, 0) 25' ;;
         traced-*) draw "$1" "assets/scenes/${1#traced-}.sdo" 640x360 --trace 64 ;;
-        rowan) draw "$1" assets/fractals/rowan.fdo 480x480 ;;
+        rowan) draw "$1" assets/examples/rowan.fdo 480x480 ;;
         agate) draw "$1" assets/scenes/agate.sdo 720x405 --section 1,1,1,0 --gather 16 ;;
         chrome) draw "$1" assets/scenes/chrome.sdo 720x405 --time 3 --trace 64 ;;
         playground | film | planet | light) "$1" ;;

@@ -78,7 +78,8 @@ internal sealed record AnimationJob(
             $"the film has more than the limit of {MaxFrameCount} frames: expected a smaller --fps, or --frames");
         var counted = this with { FrameCount = FrameCount ?? (int)filmFrames };
         UsageException.ThrowIf(
-            Only?.Last > counted.FrameCount, FormattableString.Invariant($"--only {Only?.First}..{Only?.Last}: there are {counted.FrameCount} frames"));
+            Only?.Last > counted.FrameCount,
+            FormattableString.Invariant($"--only {Only?.First}..{Only?.Last}: there are {counted.FrameCount} frames"));
         if (!(Shutter > 0))
         {
             return counted;

@@ -60,7 +60,8 @@ internal static class AnimateCommand
             {
                 RequireNoOthers(result, output, join, rate);
                 return Join(
-                    images.File(result), result.GetRequiredValue(output), result.GetValue(rate) ?? DefaultFramesPerSecond, report.Begin(result));
+                    images.File(result), result.GetRequiredValue(output), result.GetValue(rate) ?? DefaultFramesPerSecond,
+                    report.Begin(result));
             }
 
             var (job, trace) = images.Read(result, result.GetRequiredValue(output));

@@ -102,7 +102,8 @@ public static class GltfReader
             return [toWorld];
         }
 
-        return Enumerable.Range(0, instancing.Count).Select(index => toWorld * ToMap(new Matrix4x4Double(instancing.GetLocalMatrix(index))));
+        return Enumerable.Range(0, instancing.Count).Select(
+            index => toWorld * ToMap(new Matrix4x4Double(instancing.GetLocalMatrix(index))));
     }
 
     /// <summary>The map of a matrix whose rows are the images of the axes and of the origin.</summary>
@@ -121,7 +122,8 @@ public static class GltfReader
         }
 
         if (document.RootElement.TryGetProperty("accessors", out var accessors) && accessors.ValueKind == JsonValueKind.Array
-            && accessors.EnumerateArray().Sum(static accessor => accessor.GetProperty("count").GetInt64()) > ParsingLimits.GltfCorners.Value)
+            && accessors.EnumerateArray().Sum(static accessor => accessor.GetProperty("count").GetInt64())
+                > ParsingLimits.GltfCorners.Value)
         {
             throw GltfMeshBuilder.LimitError(fileName);
         }

@@ -29,7 +29,7 @@ public abstract class GradientParser(SourceText source) : SceneValueParser(sourc
     /// <exception cref="SourceException">There is no gradient.</exception>
     internal static Gradient ParseIn(SourceText source, Cursor cursor, out Cursor rest)
     {
-        var parser = new Alone(source);
+        var parser = new FractalGradientParser(source);
         return parser.ParseGradedSurface(cursor, out var gradient, out rest) ? gradient : throw parser.SyntaxError();
     }
 
@@ -145,5 +145,5 @@ public abstract class GradientParser(SourceText source) : SceneValueParser(sourc
         return (!followsValue || (ParseBlanks(cursor, out rest) && rest.Offset > cursor.Offset)) && ParseKeyword(rest, word, out rest);
     }
 
-    private sealed class Alone(SourceText source) : GradientParser(source);
+    private sealed class FractalGradientParser(SourceText source) : GradientParser(source);
 }

@@ -12,7 +12,8 @@ public sealed class FrameRangeTests : DrawingCommandTests
     public FrameRangeTests()
     {
         Folder.Write(
-            "fall.sdo", "c (0, 0, -6) # 60\ngravity (0, -9.81, 0)\no \"cube.obj\" ((0, -2, 0), #, #)\np \"cube.obj\" ((0, 1, 0), (20, 30, 0), #) 0.8\n");
+            "fall.sdo",
+            "c (0, 0, -6) # 60\ngravity (0, -9.81, 0)\no \"cube.obj\" ((0, -2, 0), #, #)\np \"cube.obj\" ((0, 1, 0), (20, 30, 0), #) 0.8\n");
     }
 
     private AppResult Animate(string output, params string[] more) => Run(["animate", "fall.sdo", .. How, "--output", output, .. more]);
@@ -58,7 +59,7 @@ public sealed class FrameRangeTests : DrawingCommandTests
         Folder.Write("f-0001.png", "");
         Folder.Write("f-0003.png", "");
         var (code, _, error) = Run("animate", "f.png", "--join", "--output", "x.apng");
-        Assert.Equal((1, "f-0002.png is missing, and f-0003.png is there: make it first, with --resume\n"), (code, error.Replace("error: ", "", StringComparison.Ordinal)));
+        Assert.Equal((1, "error: f-0002.png is missing, and f-0003.png is there: make it first, with --resume\n"), (code, error));
         Assert.False(File.Exists(Folder["x.apng"]));
     }
 

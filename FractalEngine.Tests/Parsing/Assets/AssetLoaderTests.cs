@@ -177,7 +177,8 @@ public sealed class AssetLoaderTests : IDisposable
     [InlineData("hause.obj", "hause.obj:1:1: error: file not found: did you mean \"house.obj\"?")]
     [InlineData("house.stl", "house.stl:1:1: error: file not found: did you mean \"house.obj\"?")]
     [InlineData("house.sdo", "house.sdo:1:1: error: file not found")]
-    [InlineData("a.txt", "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo or .sdo")]
+    [InlineData("a.txt",
+        "a.txt:1:1: error: the ending says nothing of the contents, expected .obj, .obj.gz, .ply, .stl, .glb, .gltf, .fdo or .sdo")]
     [InlineData("d.sdo", "d.sdo:1:1: error: this is a directory, expected a file")]
     public void Load_OfAPathThatIsNoSuchFile_SaysWhy(string file, string expected)
     {

@@ -279,7 +279,7 @@ public class FractalParserErrorTests
     [InlineData("x. \"Base\"")]
     [InlineData("x. \"\"")]
     public void BaseFile_ThatIsNoMesh_IsRefused(string line) => Fails(line + "\n<$>. x", $"""
-        test.fdo:1:4: error: expected the name of a mesh (.obj, .obj.gz, .ply, .stl, .glb, .gltf) or fractal (.fdo): that is the base of a fractal
+        test.fdo:1:4: error: expected the name of a mesh ({FileKinds.MeshEndings}) or fractal (.fdo): that is the base of a fractal
           {line}
              ^
         """);

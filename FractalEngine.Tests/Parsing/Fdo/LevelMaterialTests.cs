@@ -54,7 +54,8 @@ public sealed class LevelMaterialTests : IDisposable
                 part.Fractal.Expand(10_000).Select(map => (BaseShapes.NameOf(part.Mesh)!, map))).ToList();
             Assert.Equal(expected.Count, actual.Count);
             // Rounding of six products of maps of a size of about 1.
-            Assert.All(expected, one => Assert.Contains(actual, other => other.Item1 == one.Shape && Near.Difference(other.map, one.Map) < 1e-12));
+            Assert.All(expected, one => Assert.Contains(
+                actual, other => other.Item1 == one.Shape && Near.Difference(other.map, one.Map) < 1e-12));
             Assert.Equal(expected.Count, model.Fractal.InstanceCount);
             Assert.Equal(expected.Count, model.Fractal.CountRange(100_000)?.Exact);
 
@@ -168,7 +169,8 @@ public sealed class LevelMaterialTests : IDisposable
     [Fact]
     public void Materials_OfOneShapeByChance_AreSeveralMeshes()
     {
-        var model = Load("<$>. [((1, 0, 0), #, #)^0..99] (1: box material \"bark.mtl\" | 1: box material \"leaves.mtl\" \"Leaf\" | 1: box)");
+        var model = Load(
+            "<$>. [((1, 0, 0), #, #)^0..99] (1: box material \"bark.mtl\" | 1: box material \"leaves.mtl\" \"Leaf\" | 1: box)");
         var counts = model.Parts.Select(static part => (int)((FractalModel)part).Fractal.Expand(1000).Length).ToArray();
         Assert.Equal((3, 100), (counts.Length, counts.Sum()));
         Assert.All(counts, static count => Assert.InRange(count, 15, 55));

@@ -197,7 +197,8 @@ public class FractalWriterTests
 
     [Fact]
     public void Write_OfABaseThatIsNoMesh_IsRefused() => Fails(
-        ErrorKind.Input, "expected the name of a mesh (.obj, .obj.gz, .ply, .stl, .glb, .gltf) or fractal (.fdo): that is the base of a fractal",
+        ErrorKind.Input,
+        "expected the name of a mesh (.obj, .obj.gz, .ply, .stl, .glb, .gltf) or fractal (.fdo): that is the base of a fractal",
         () => FractalWriter.Write(new([]), "a.sdo"));
 
     [Fact]
