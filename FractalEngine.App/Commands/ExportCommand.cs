@@ -10,6 +10,7 @@ using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports;
 using FractalEngine.Parsing.Exports.Csv;
+using FractalEngine.Parsing.Exports.Gltf;
 using FractalEngine.Parsing.Exports.Ply;
 using FractalEngine.Parsing.Exports.Stl;
 using FractalEngine.Parsing.Exports.ThreeMf;
@@ -24,7 +25,7 @@ internal static class ExportCommand
     // Beside OBJ, which has a file for its materials.
     private static readonly ImmutableArray<SceneExport> Formats =
     [
-        new PlyExport(), new StlExport(), new ThreeMfExport(), new CsvExport(), new WebExport(),
+        new PlyExport(), new StlExport(), new ThreeMfExport(), new CsvExport(), new GltfExport(), new WebExport(),
     ];
 
     private static string Endings { get; } = string.Join('|', [".obj", .. Formats.Select(static format => format.Ending)]);

@@ -18,7 +18,7 @@ internal sealed class ExportOptions
         "--instances", "N", 1, (long)Array.MaxLength, "Maximum number of instances: the largest parts are divided first.");
 
     private readonly Option<Handedness?> _handed = WordOption.Single(
-        "--handed", "Handedness of the coordinates (default: right for .ply, .stl, .3mf; else as they are).",
+        "--handed", "Handedness of the coordinates (default: right for .ply, .stl, .3mf, .glb; else as they are).",
         ("right", Handedness.Right), ("left", Handedness.Left));
 
     private readonly Option<UpAxis?> _up = WordOption.Single(

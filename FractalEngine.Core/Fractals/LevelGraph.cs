@@ -1,7 +1,5 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;

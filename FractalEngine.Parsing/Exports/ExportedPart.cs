@@ -1,6 +1,5 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Mtl;
 

@@ -54,14 +54,17 @@ public sealed class ExportedScene
     }
 
     /// <summary>Tells what a format loses that has no more than colours, a sentence each.</summary>
-    public static ImmutableArray<string> LossesOf(LoadedScene scene, bool hasColours)
+    /// <param name="scene">The scene.</param>
+    /// <param name="hasColours">Whether the format has colours.</param>
+    /// <param name="hasTextures">Whether it has textures.</param>
+    public static ImmutableArray<string> LossesOf(LoadedScene scene, bool hasColours, bool hasTextures = false)
     {
         ArgumentNullException.ThrowIfNull(scene);
         var materials = scene.Models.SelectMany(static model => model.Parts).SelectMany(static part => part.Materials.Values).ToArray();
         return
         [
-            .. materials.Any(static material => material.IsTextured) ? (string[])["textures are not written"] : [],
-            .. hasColours && scene.Objects.Any(static placed => placed.Declaration.Gradient is not null)
+            .. !hasTextures && materials.Any(static material => material.IsTextured) ? (string[])["textures are not written"] : [],
+            .. hasColours && scene.Objects.Any(static placed => placed.Gradient is not null)
                 ? (string[])["gradients of fractals are not written"] : [],
         ];
     }

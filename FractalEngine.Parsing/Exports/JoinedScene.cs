@@ -1,6 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core;
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
@@ -76,7 +74,11 @@ public sealed class JoinedScene
 
     private static Material WithoutTextures(Material material) => material with
     {
-        Texture = null, OpacityTexture = null, EmissionTexture = null, BumpTexture = null, NormalTexture = null,
+        Texture = null,
+        OpacityTexture = null,
+        EmissionTexture = null,
+        BumpTexture = null,
+        NormalTexture = null,
     };
 
     private void Add(ExportedPart part)

@@ -3,7 +3,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
-using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo;
 

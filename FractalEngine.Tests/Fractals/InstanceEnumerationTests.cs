@@ -1,7 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;

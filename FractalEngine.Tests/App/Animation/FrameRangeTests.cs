@@ -13,7 +13,8 @@ public sealed class FrameRangeTests : DrawingCommandTests
     {
         Folder.Write(
             "fall.sdo",
-            "c (0, 0, -6) # 60\ngravity (0, -9.81, 0)\no \"cube.obj\" ((0, -2, 0), #, #)\np \"cube.obj\" ((0, 1, 0), (20, 30, 0), #) 0.8\n");
+            "c (0, 0, -6) # 60\ngravity (0, -9.81, 0)\no \"cube.obj\" ((0, -2, 0), #, #)\n"
+            + "p \"cube.obj\" ((0, 1, 0), (20, 30, 0), #) 0.8\n");
     }
 
     private AppResult Animate(string output, params string[] more) => Run(["animate", "fall.sdo", .. How, "--output", output, .. more]);

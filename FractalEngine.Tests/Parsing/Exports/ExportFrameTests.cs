@@ -1,6 +1,5 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Exports;
 using FractalEngine.Tests.Render;

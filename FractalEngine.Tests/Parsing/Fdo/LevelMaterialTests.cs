@@ -1,5 +1,4 @@
 using System.Collections.Immutable;
-using FractalEngine.Core;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
@@ -7,7 +6,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Fdo;
 using FractalEngine.Parsing.Fdo.Writing;

@@ -4,10 +4,8 @@ using System.Text.Json.Nodes;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
-using FractalEngine.Parsing.Gltf;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
@@ -23,7 +21,7 @@ public sealed class GltfReaderTests : IDisposable
     /// <summary>A file of one buffer, to which accessors are added one after the other.</summary>
     private sealed class Document
     {
-        private readonly MemoryStream _bytes = new();
+        private readonly List<byte> _bytes = [];
 
         public JsonObject Root { get; } = JsonNode.Parse("""
             {"asset": {"version": "2.0"}, "buffers": [{}], "bufferViews": [], "accessors": [], "meshes": [], "nodes": [], "materials": []}
@@ -34,25 +32,20 @@ public sealed class GltfReaderTests : IDisposable
         /// <summary>Adds an accessor of floats (5126), or of integers of another type.</summary>
         public int Add(string type, int componentType, int components, params double[] numbers)
         {
-            while (_bytes.Length % 4 != 0)
-            {
-                _bytes.WriteByte(0);
-            }
-
-            var start = _bytes.Length;
-            using var writer = new BinaryWriter(_bytes, Encoding.UTF8, leaveOpen: true);
+            Align();
+            var start = _bytes.Count;
             foreach (var number in numbers)
             {
-                switch (componentType)
+                _bytes.AddRange(componentType switch
                 {
-                    case 5121: writer.Write((byte)number); break;
-                    case 5123: writer.Write((ushort)number); break;
-                    case 5125: writer.Write((uint)number); break;
-                    default: writer.Write((float)number); break;
-                }
+                    5121 => [(byte)number],
+                    5123 => BitConverter.GetBytes((ushort)number),
+                    5125 => BitConverter.GetBytes((uint)number),
+                    _ => BitConverter.GetBytes((float)number),
+                });
             }
 
-            this["bufferViews"].Add(new JsonObject { ["buffer"] = 0, ["byteOffset"] = start, ["byteLength"] = _bytes.Length - start });
+            this["bufferViews"].Add(new JsonObject { ["buffer"] = 0, ["byteOffset"] = start, ["byteLength"] = _bytes.Count - start });
             var count = numbers.Length / components;
             var accessor = new JsonObject
             {
@@ -71,34 +64,30 @@ public sealed class GltfReaderTests : IDisposable
 
         public int AddImage(byte[] contents)
         {
-            var start = _bytes.Length;
-            _bytes.Write(contents);
+            var start = _bytes.Count;
+            _bytes.AddRange(contents);
             this["bufferViews"].Add(new JsonObject { ["buffer"] = 0, ["byteOffset"] = start, ["byteLength"] = contents.Length });
             return this["bufferViews"].Count - 1;
         }
 
         public string Embedded()
         {
-            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Root["buffers"]![0]!["byteLength"] = _bytes.Count;
             Root["buffers"]![0]!["uri"] = "data:application/octet-stream;base64," + Convert.ToBase64String(_bytes.ToArray());
             return Trimmed().ToJsonString();
         }
 
         public (string Text, byte[] Buffer) Separate(string name)
         {
-            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Root["buffers"]![0]!["byteLength"] = _bytes.Count;
             Root["buffers"]![0]!["uri"] = name;
             return (Trimmed().ToJsonString(), _bytes.ToArray());
         }
 
         public byte[] Binary()
         {
-            while (_bytes.Length % 4 != 0)
-            {
-                _bytes.WriteByte(0);
-            }
-
-            Root["buffers"]![0]!["byteLength"] = _bytes.Length;
+            Align();
+            Root["buffers"]![0]!["byteLength"] = _bytes.Count;
             Root["buffers"]![0]!.AsObject().Remove("uri");
             var json = Encoding.UTF8.GetBytes(Trimmed().ToJsonString());
             json = [.. json, .. Enumerable.Repeat((byte)' ', (4 - (json.Length % 4)) % 4)];
@@ -106,16 +95,18 @@ public sealed class GltfReaderTests : IDisposable
             using var writer = new BinaryWriter(result);
             writer.Write("glTF"u8);
             writer.Write(2u);
-            writer.Write((uint)(12 + 8 + json.Length + 8 + _bytes.Length));
+            writer.Write((uint)(12 + 8 + json.Length + 8 + _bytes.Count));
             writer.Write((uint)json.Length);
             writer.Write("JSON"u8);
             writer.Write(json);
-            writer.Write((uint)_bytes.Length);
+            writer.Write((uint)_bytes.Count);
             writer.Write("BIN\0"u8);
             writer.Write(_bytes.ToArray());
             writer.Flush();
             return result.ToArray();
         }
+
+        private void Align() => _bytes.AddRange(new byte[(4 - (_bytes.Count % 4)) % 4]);
 
         // Empty arrays are not allowed.
         private JsonObject Trimmed()

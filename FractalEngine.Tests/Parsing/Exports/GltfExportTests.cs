@@ -1,0 +1,145 @@
+using System.Text;
+using System.Text.Json;
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Exports;
+using FractalEngine.Parsing.Exports.Gltf;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Parsing.Exports;
+
+/// <summary>Scenes as glTF, read back by the reader of files of others, and as plain JSON.</summary>
+public sealed class GltfExportTests : IDisposable
+{
+    // Floats of coordinates up to about 10.
+    private const double Tolerance = 3e-6;
+
+    private readonly TemporaryFolder _folder = new();
+
+    public void Dispose() => _folder.Dispose();
+
+    private ExportSummary Export(LoadedScene scene, ExportSettings? settings = null)
+    {
+        using var stream = File.Create(_folder["a.glb"]);
+        return new GltfExport().Write(scene, settings ?? new(), stream);
+    }
+
+    private JsonElement Json()
+    {
+        var bytes = File.ReadAllBytes(_folder["a.glb"]);
+        Assert.Equal("glTF", Encoding.ASCII.GetString(bytes, 0, 4));
+        Assert.Equal((uint)bytes.Length, BitConverter.ToUInt32(bytes, 8));
+        return JsonDocument.Parse(bytes.AsMemory(20, (int)BitConverter.ToUInt32(bytes, 12))).RootElement;
+    }
+
+    /// <summary>A left-handed scene is mirrored, a right-handed one stays, and all faces keep their sides.</summary>
+    [Theory]
+    [InlineData("assets/fractals/menger-3.fdo", false)]
+    [InlineData("assets/fractals/tree.fdo", false)]
+    [InlineData("assets/fractals/fern.fdo", true)]
+    [InlineData("assets/fractals/shell.fdo", false)]
+    [InlineData("assets/fractals/snowflake.fdo", false)]
+    [InlineData("assets/examples/rowan.fdo", false)]
+    [InlineData("assets/models/crate.obj", false)]
+    public void Fractal_ReadBack_HasTheFacesOfItsExpansion(string file, bool isSkewed)
+    {
+        var loaded = AssetLoader.Load(Repository.Full(file), new() { Depth = file.Contains("fdo", StringComparison.Ordinal) ? 2 : null });
+        var summary = Export(loaded.Scene);
+        var expected = loaded.Scene.Objects.Flatten(10_000_000);
+        var actual = MeshFile.Read(_folder["a.glb"]);
+        Assert.Equal(expected.FaceCount, actual.FaceCount);
+        Assert.Equal(isSkewed, summary.Losses.Any(static loss => loss.Contains("skewed", StringComparison.Ordinal)));
+        var mirror = loaded.Scene.Scene.Handedness == Core.Scenes.Cameras.Handedness.Left ? -1 : 1;
+        Assert.Equal(Centres(expected, mirror), Centres(actual, 1), (a, b) => Near.Difference(a, b) < Tolerance);
+        Near.Equal(expected.SurfaceArea(), actual.SurfaceArea(), 1e-5 * expected.SurfaceArea());
+        // The sides of a closed mesh decide about the sign of its volume. The fern is a sheet, which has none.
+        Near.Equal(Volume(expected), Volume(actual), isSkewed ? 1e-3 : 1e-5 * Math.Max(1, Math.Abs(Volume(expected))));
+    }
+
+    private static List<Vector> Centres(Mesh mesh, int mirror) =>
+    [
+        .. Enumerable.Range(0, mesh.FaceCount).Select(face =>
+        {
+            var (a, b, c) = mesh.Face(face);
+            var (x, y, z) = (a + b + c) / 3;
+            return new Vector(x, y, mirror * z);
+        }).OrderBy(static v => Math.Round(v.X, 4)).ThenBy(static v => Math.Round(v.Y, 4)).ThenBy(static v => Math.Round(v.Z, 4)),
+    ];
+
+    private static double Volume(Mesh mesh) => Enumerable.Range(0, mesh.FaceCount).Sum(face =>
+    {
+        var (a, b, c) = mesh.Face(face);
+        return Vector.Dot(a, Vector.Cross(b, c)) / 6;
+    });
+
+    [Fact]
+    public void Instances_OfAMillionFaces_AreAFewNumbersEach()
+    {
+        var scene = AssetLoader.Load(Repository.Full("assets/fractals/menger-4.fdo")).Scene;
+        Export(scene);
+        // 160,000 cubes: a translation, a rotation and a scale each, of 40 bytes.
+        Assert.InRange(new FileInfo(_folder["a.glb"]).Length, 160_000 * 40, (160_000 * 40) + 4000);
+        var json = Json();
+        Assert.Equal("EXT_mesh_gpu_instancing", Assert.Single(json.GetProperty("extensionsRequired").EnumerateArray()).GetString());
+        Assert.Equal(1, json.GetProperty("meshes").GetArrayLength());
+    }
+
+    [Fact]
+    public void Scene_WithMaterialsCameraAndLights_KeepsThem()
+    {
+        File.Copy(Repository.Full("assets/models/crate.png"), _folder["crate.png"]);
+        File.WriteAllText(_folder["m.mtl"], "newmtl Tiles\nmap_Kd crate.png\nKe 3 0 0\nd 0.5\nPr 0.25\nPm 1\n");
+        File.WriteAllText(_folder["box.fdo"], "<$>. box material \"m.mtl\"\n");
+        File.WriteAllText(_folder["s.sdo"], """
+            c (0, 0, -5) # 60
+            light directional (0, -1, 0) (1, 0.5, 0.5) 2
+            light point (1, 2, 3) (1, 1, 1) 1 10
+            o "box.fdo" ((0, 0, 1), #, #) colour (0.5, 1, 1)
+            """);
+        Assert.Empty(Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses);
+        var json = Json();
+        var material = json.GetProperty("materials")[0];
+        var surface = material.GetProperty("pbrMetallicRoughness");
+        Assert.Equal(("BLEND", 0.25, 1), (
+            material.GetProperty("alphaMode").GetString(), surface.GetProperty("roughnessFactor").GetDouble(),
+            surface.GetProperty("metallicFactor").GetDouble()));
+        Near.Equal(0.2140411, surface.GetProperty("baseColorFactor")[0].GetDouble(), 1e-6); // 0.5 of sRGB in linear light
+        Assert.Equal([1.0, 0, 0], material.GetProperty("emissiveFactor").EnumerateArray().Select(static one => one.GetDouble()));
+        Assert.Equal(3, material.GetProperty("extensions").GetProperty("KHR_materials_emissive_strength").GetProperty("emissiveStrength")
+            .GetDouble());
+        var model = (MeshModel)AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model;
+        Assert.Equal(File.ReadAllBytes(_folder["crate.png"]), model.Materials["Tiles"].Texture!.Contents);
+        var nodes = json.GetProperty("nodes").EnumerateArray().Where(static node => node.TryGetProperty("matrix", out _)).Select(
+            static node => node.GetProperty("matrix").EnumerateArray().Select(static one => one.GetDouble()).ToArray()).ToList();
+        // The camera before the mirror at z = −5, and behind it at 5; it looks along its own −z. So does the light that falls.
+        Assert.Equal([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1], nodes[0]);
+        Assert.Equal([0.0, 1, 0], nodes[1][8..11]);
+        Assert.Equal([1.0, 2, -3], nodes[2][12..15]);
+        var lights = json.GetProperty("extensions").GetProperty("KHR_lights_punctual").GetProperty("lights");
+        Near.Equal(2 * Math.PI, lights[0].GetProperty("intensity").GetDouble(), 1e-12);
+        // A tenth of the range of 10 is 1, where the light brings π.
+        Near.Equal(Math.PI, lights[1].GetProperty("intensity").GetDouble(), 1e-12);
+    }
+
+    [Fact]
+    public void SameScene_WrittenTwice_HasTheSameBytes()
+    {
+        var scene = AssetLoader.Load(Repository.Full("assets/fractals/fern.fdo"), new() { Depth = 1 }).Scene;
+        Export(scene);
+        var first = File.ReadAllBytes(_folder["a.glb"]);
+        Export(scene);
+        Assert.Equal(first, File.ReadAllBytes(_folder["a.glb"]));
+    }
+
+    [Fact]
+    public void Fractal_OfMoreFacesThanTheLimit_WritesNothing()
+    {
+        var scene = AssetLoader.Load(Repository.Full("assets/fractals/menger.fdo")).Scene;
+        Assert.ThrowsAny<Core.FractalEngineException>(() => Export(scene, new() { MaxFaces = 1000 }));
+        Assert.Equal(0, new FileInfo(_folder["a.glb"]).Length);
+    }
+}
