@@ -1,4 +1,5 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
@@ -7,12 +8,16 @@ namespace FractalEngine.Core.Scenes;
 
 /// <summary>Area and volume of all that a scene shows, and whether its meshes are closed. What overlaps counts each time.</summary>
 /// <param name="Area">
-/// Scene units²; null where it is not known: of what is infinite or componentwise, and of fractals whose maps are not all similarities.
+/// Scene units²; null where it is not known: of what is infinite or componentwise, of fractals whose maps are not all similarities, and
+/// of those of more than 20,000 maps.
 /// </param>
-/// <param name="Volume">Scene units³; null where a mesh is open, and of what is infinite or componentwise.</param>
+/// <param name="Volume">Scene units³; null where a mesh is open, and of what is infinite, componentwise, or of so many maps.</param>
 /// <param name="Open">The first mesh that is not closed and the middle of an open edge of it, in its own frame; null where all are.</param>
 public readonly record struct SurfaceSummary(double? Area, double? Volume, (string Mesh, Vector Edge)? Open)
 {
+    // Levels take some hundred bytes a map.
+    private const long MaxMaps = 20_000;
+
     /// <summary>Measures a scene, of fractals level by level.</summary>
     /// <remarks>Cost O(faces of all meshes): about a second for a million.</remarks>
     public static SurfaceSummary Of(LoadedScene scene)
@@ -43,18 +48,22 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
 
     private static double? MeasureArea(Model model, Matrix linear) => model is not FractalModel { Fractal: var fractal }
         ? FractalGenerator.Flatten(model.Mesh, [new(linear, Vector.Zero)]).SurfaceArea()
-        : linear.IsSimilarity() && fractal.FindHierarchy() is { HasOnlySimilarities: true } hierarchy
+        : linear.IsSimilarity() && HierarchyOf(fractal) is { HasOnlySimilarities: true } hierarchy
             ? linear.V1.LengthSquared() * LevelSums.Of(
                 hierarchy, index => hierarchy.BaseMeshes[index].SurfaceArea(), static (area, child) => area * child.ScaleSquared)
             : null;
 
     private static double? MeasureVolume(Model model) => model is not FractalModel { Fractal: var fractal }
         ? VolumeOf(model.Mesh)
-        : fractal.FindHierarchy() is { } hierarchy
+        : HierarchyOf(fractal) is { } hierarchy
             ? LevelSums.Of(
                 hierarchy, index => VolumeOf(hierarchy.BaseMeshes[index]),
                 static (volume, child) => volume * Math.Abs(child.Map.Linear.Determinant()))
             : null;
+
+    /// <summary>The levels of a fractal, where they don't take much more memory than its file.</summary>
+    private static FractalHierarchy? HierarchyOf(Fractal fractal) =>
+        fractal.Description.MapCount <= MaxMaps ? fractal.FindHierarchy() : null;
 
     /// <summary>The volume within a closed mesh, also one that is wound inwards.</summary>
     private static double VolumeOf(Mesh mesh) => mesh.FaceCount == 0 ? 0 : Math.Abs(

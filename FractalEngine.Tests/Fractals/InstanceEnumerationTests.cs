@@ -8,6 +8,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Fractals;
 
 /// <summary>Tests lists of instances against expansions, and their paths against the maps of the fractal.</summary>
+[Collection(AloneTests.Name)]
 public class InstanceEnumerationTests
 {
     private const long MaxInstances = 20_000;

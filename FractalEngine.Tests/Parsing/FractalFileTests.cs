@@ -62,8 +62,13 @@ public sealed class FractalFileTests : IDisposable
         Assert.Equal(fractal, FractalFile.Read(_folder["a.fdo"]));
     }
 
+    // A mesh with a material of a fractal's file is no longer that of its own file.
+    public static TheoryData<string> FilesWithoutMaterials =>
+        [.. ((IEnumerable<object[]>)FractalWriterTests.AssetFiles).Select(static row => (string)row[0]).Where(
+            static file => !File.ReadAllText(Repository.Full(file)).Contains(" material \"", StringComparison.Ordinal))];
+
     [Theory]
-    [MemberData(nameof(FractalWriterTests.AssetFiles), MemberType = typeof(FractalWriterTests))]
+    [MemberData(nameof(FilesWithoutMaterials))]
     public void Write_OfAnAssetFractal_NamesItsMeshAndReadsBackEqual(string file)
     {
         CopyAssets();

@@ -29,6 +29,7 @@ public sealed class ParsingLimitTests
             ("image-pixels", 134_217_728, 1_099_511_627_776, "pixels of all images of one file", "512 MiB, decoded"),
             ("sky-pixels", 33_554_432, 268_435_456, "pixels of the image of a sky", "800 MB, with what is made of it"),
             ("polygon-corners", 20_000, AnyInteger, "corners of a polygon", "cutting it takes a time of their square at worst"),
+            ("gltf-corners", 100_000_000, 500_000_000, "corners of all nodes of a glTF file", "about 6 GB"),
         ];
         Assert.Equal(
             expected,

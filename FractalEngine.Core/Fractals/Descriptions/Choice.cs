@@ -6,8 +6,8 @@ namespace FractalEngine.Core.Fractals.Descriptions;
 
 /// <summary>What decides by chance, or by the level, which call of a recursive stands there: the others are left out.</summary>
 /// <remarks>
-/// Chance decides at each place anew, by a 64-bit hash of the seed and the way to the place, which is compared with the weights in integers.
-/// So the same file is the same fractal on every machine, and nothing is kept.
+/// Chance decides at each place anew, by a 64-bit hash of the seed and the way to the place, which is compared with the weights in
+/// integers. So the same file is the same fractal on every machine, and nothing is kept.
 /// </remarks>
 public sealed record Choice
 {

@@ -73,6 +73,9 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// <summary>True when all maps were declared by position, rotation and scale; others may be products of many maps.</summary>
     internal bool HasOnlyTransformations => Parts.IsEmpty && Steps.All(HasTransformations);
 
+    /// <summary>Number of maps in all sets and recursives.</summary>
+    internal long MapCount => AllParts().Sum(static part => part.MapSets.Sum(static maps => (long)maps.Length));
+
     /// <summary>True when no transformation mirrors, so that all instances are wound as the base mesh is.</summary>
     public bool PreservesOrientation => AllParts().All(static part => part.MapSets.All(
         static maps => maps.All(static map => map.Linear.Determinant() > 0)));

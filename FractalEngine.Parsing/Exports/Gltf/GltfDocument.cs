@@ -34,7 +34,7 @@ internal sealed class GltfDocument
         return this[array].Count - 1;
     }
 
-    /// <summary>Adds a node to the scene.</summary>
+    /// <summary>Adds a node, which the only scene of the file shows.</summary>
     /// <param name="node">The node.</param>
     /// <param name="property">One more property of it, by its name.</param>
     public void AddNode(JsonObject node, (string Name, int Value)? property = null)
@@ -76,7 +76,7 @@ internal sealed class GltfDocument
         }
     }
 
-    /// <summary>Adds numbers to the file.</summary>
+    /// <summary>Adds an accessor, and the numbers that it reads.</summary>
     /// <param name="type">SCALAR for whole numbers of 32 bits; VEC2, VEC3 or VEC4 for floats.</param>
     /// <param name="count">Number of scalars or vectors.</param>
     /// <param name="write">Writes them.</param>
@@ -94,7 +94,7 @@ internal sealed class GltfDocument
         });
     }
 
-    /// <summary>Adds the bytes of an image.</summary>
+    /// <summary>Adds the bytes of an image, as they are.</summary>
     /// <returns>Index of its view.</returns>
     public int AddBytes(byte[] bytes) => AddView(bytes.Length, writer =>
     {
@@ -108,7 +108,7 @@ internal sealed class GltfDocument
     public static void WriteFloat(LittleEndianWriter writer, double number) =>
         writer.WriteUInt32(BitConverter.SingleToUInt32Bits((float)number));
 
-    /// <summary>Writes the file.</summary>
+    /// <summary>Writes the JSON, and then all numbers and images.</summary>
     /// <exception cref="FractalLimitException">It has more bytes than its format can count. Nothing is written then.</exception>
     public void Write(Stream stream)
     {

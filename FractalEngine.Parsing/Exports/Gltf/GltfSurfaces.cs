@@ -13,7 +13,7 @@ internal sealed class GltfSurfaces(GltfDocument document)
     /// <summary>Number of textures that are no PNG or JPEG, which glTF has none but.</summary>
     public int LeftOutCount { get; private set; }
 
-    /// <summary>Adds a material.</summary>
+    /// <summary>Adds a material, unless an equal one is there.</summary>
     /// <returns>Its index.</returns>
     public int Add(Material material)
     {
