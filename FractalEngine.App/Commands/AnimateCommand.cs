@@ -162,14 +162,13 @@ internal static class AnimateCommand
                 {
                     var light = frames.CreateLight(frame, interruption.Token);
                     output.AddFile(stream => format.Write(light, stream));
-                    made++;
                 }
                 else
                 {
                     output.Add(frames.Create(frame, interruption.Token));
-                    made++;
                 }
 
+                made = frame + 2 - first - known;
                 progress.Report(made + known);
             }
         }

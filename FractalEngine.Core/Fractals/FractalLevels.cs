@@ -29,7 +29,6 @@ public sealed class FractalLevels
             .. hierarchy.AllLevels.Regions.ToArray().Select(static run => (run.FirstLevel, run.LevelCount, run.FirstIndex, run.Period)),
         ];
         (Start, StartWay, StartSize) = (Shift(hierarchy.Start.Level), hierarchy.Start.Way, hierarchy.Start.Size);
-        DependsOnWays = hierarchy.DependsOnWays;
         var sets = new List<MapSet>();
         var indices = new Dictionary<MapSet, int>();
         Levels = [.. hierarchy.AllLevels.Items.ToArray().Select(level => new FractalLevel(
@@ -83,9 +82,6 @@ public sealed class FractalLevels
 
     /// <summary>The number of the size there.</summary>
     public long StartSize { get; }
-
-    /// <summary>Whether ways to places decide what stands there.</summary>
-    public bool DependsOnWays { get; }
 
     private long Shift(long level) => level > MaxLevel ? level - _shift : level;
 

@@ -25,10 +25,20 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
         ArgumentNullException.ThrowIfNull(scene);
         var open = scene.Models.SelectMany(OpenEdges).Select(static edge => ((string, Vector)?)edge).FirstOrDefault();
         var (area, volume) = ((double?)0, (double?)0);
+        // Many objects may share a model.
+        var known = new Dictionary<Model, (double? Area, double? Volume)>(ReferenceEqualityComparer.Instance);
         foreach (var placed in scene.Objects)
         {
-            area += MeasureArea(placed.Model, placed.ObjectToWorld.Linear);
-            volume += open is null ? MeasureVolume(placed.Model) * Math.Abs(placed.ObjectToWorld.Linear.Determinant()) : null;
+            if (!known.TryGetValue(placed.Model, out var own))
+            {
+                known.Add(placed.Model, own = (MeasureArea(placed.Model), open is null ? MeasureVolume(placed.Model) : null));
+            }
+
+            var linear = placed.ObjectToWorld.Linear;
+            area += linear.IsSimilarity() ? own.Area * linear.V1.LengthSquared()
+                : placed.Model is MeshModel { Mesh: var mesh } ? FractalGenerator.Flatten(mesh, [new(linear, Vector.Zero)]).SurfaceArea()
+                : null;
+            volume += own.Volume * Math.Abs(linear.Determinant());
         }
 
         return new(area, volume, open);
@@ -46,10 +56,10 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
         }
     }
 
-    private static double? MeasureArea(Model model, Matrix linear) => model is not FractalModel { Fractal: var fractal }
-        ? FractalGenerator.Flatten(model.Mesh, [new(linear, Vector.Zero)]).SurfaceArea()
-        : linear.IsSimilarity() && HierarchyOf(fractal) is { HasOnlySimilarities: true } hierarchy
-            ? linear.V1.LengthSquared() * LevelSums.Of(
+    private static double? MeasureArea(Model model) => model is not FractalModel { Fractal: var fractal }
+        ? model.Mesh.SurfaceArea()
+        : HierarchyOf(fractal) is { HasOnlySimilarities: true } hierarchy
+            ? LevelSums.Of(
                 hierarchy, index => hierarchy.BaseMeshes[index].SurfaceArea(), static (area, child) => area * child.ScaleSquared)
             : null;
 

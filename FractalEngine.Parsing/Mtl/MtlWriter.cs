@@ -72,7 +72,8 @@ internal static class MtlWriter
 
     private static void AppendTexture(StringBuilder text, string keyword, Material material, MaterialTexture? texture, string fullPath)
     {
-        if (texture is null)
+        // What is part of another file has no file that could be named.
+        if (texture is null or { Contents.IsEmpty: false })
         {
             return;
         }

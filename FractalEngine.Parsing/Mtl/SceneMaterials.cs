@@ -155,7 +155,7 @@ public sealed class SceneMaterials
     /// <summary>Returns the full paths of all textures, each once.</summary>
     public IEnumerable<string> Textures => _materials.Values
         .SelectMany(static material => TextureSlot.All.Select(slot => slot.Of(material)))
-        .OfType<MaterialTexture>().Select(static texture => texture.Path).Distinct();
+        .OfType<MaterialTexture>().Where(static texture => texture.Contents.IsEmpty).Select(static texture => texture.Path).Distinct();
 
     private static IEnumerable<string> GroupMaterials(Mesh mesh) =>
         mesh.Groups.IsEmpty ? [""] : mesh.Groups.Select(static group => group.Material).Distinct();

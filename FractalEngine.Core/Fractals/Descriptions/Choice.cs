@@ -112,9 +112,22 @@ public sealed record Choice
 
     /// <summary>Finds which alternative stands at a level, for a choice by levels.</summary>
     /// <param name="level">From 0, the outermost one of the recursive.</param>
-    public int SelectAt(long level) => FirstLevels.IsEmpty
-        ? Select(WrittenWay.Of(level, 0).After(0))
-        : FirstLevels.Count(first => first <= level) - 1;
+    public int SelectAt(long level)
+    {
+        if (FirstLevels.IsEmpty)
+        {
+            return Select(WrittenWay.Of(level, 0).After(0));
+        }
+
+        // Searches ask at each place, and allocate nothing.
+        var last = FirstLevels.Length - 1;
+        while (FirstLevels[last] > level)
+        {
+            last--;
+        }
+
+        return last;
+    }
 
     private BigInteger EndOf(int index) => index >= _last ? BigInteger.One << 64 : _ends[index];
 

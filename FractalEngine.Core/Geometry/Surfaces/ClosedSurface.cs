@@ -16,12 +16,12 @@ public static class ClosedSurface
     /// </remarks>
     public static bool IsSolid(Mesh mesh)
     {
-        if (mesh.FaceCount == 0 || SurfaceEdges.Of(mesh).OpenCount > 0)
+        var representatives = VertexWelding.FindRepresentatives(mesh);
+        if (mesh.FaceCount == 0 || SurfaceEdges.Of(mesh, representatives).OpenCount > 0)
         {
             return false;
         }
 
-        var representatives = VertexWelding.FindRepresentatives(mesh);
         int[] indices = [.. mesh.VertexIndices.Select(vertex => representatives[vertex])];
         var components = new DisjointSets();
         components.Reset(mesh.VertexCount);

@@ -13,7 +13,12 @@ public readonly record struct SurfaceEdges(int OpenCount, int TouchingCount, Vec
     public static SurfaceEdges Of(Mesh mesh)
     {
         ArgumentNullException.ThrowIfNull(mesh);
-        var representatives = VertexWelding.FindRepresentatives(mesh);
+        return Of(mesh, VertexWelding.FindRepresentatives(mesh));
+    }
+
+    /// <summary>Counts the edges of a mesh whose vertices have been compared.</summary>
+    internal static SurfaceEdges Of(Mesh mesh, int[] representatives)
+    {
         var edges = new Dictionary<(int From, int To), (int Balance, int Count)>(2 * mesh.FaceCount);
         for (var i = 0; i < mesh.VertexIndices.Length; i++)
         {

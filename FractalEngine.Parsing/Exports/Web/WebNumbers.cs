@@ -57,7 +57,7 @@ internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebL
             return;
         }
 
-        var source = options.Text ?? new SourceText(Path.GetFileName(path), File.ReadAllText(path));
+        var source = options.Text ?? SourceText.Read(path, Path.GetFileName(path), ParsingLimits.DescriptionBytes.Value);
         foreach (var number in FractalNumber.FindAll(source).Where(static one => one.Role == FractalNumberRole.Named))
         {
             var value = options.Values.TryGetValue(number.Name, out var set) ? set : number.Value;

@@ -14,7 +14,6 @@ internal static class WebPage
         "scene.vert", "scene.frag", "sky.vert", "sky.frag", "shadow.frag", "gather.frag", "show.frag", "lit.glsl", "tone.glsl",
     ];
 
-
     /// <summary>Writes the shaders of the viewer, as a JSON object of their names.</summary>
     public static void WriteShaders(Utf8JsonWriter json)
     {

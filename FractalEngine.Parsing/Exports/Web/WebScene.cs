@@ -20,6 +20,9 @@ internal sealed class WebScene
     // Sixteen fit the shader, as in drawn images.
     private const int MaxLights = 16;
 
+    // That of drawn images.
+    private static readonly Colour DefaultBackground = new(0.118, 0.133, 0.161);
+
     private readonly LoadedScene _scene;
     private readonly ExportSettings _settings;
     private readonly ISet<string> _losses;
@@ -143,10 +146,10 @@ internal sealed class WebScene
             json.WriteEndObject();
         }
 
-        WriteVector(json, "background", (scene.Background ?? new(0.118, 0.133, 0.161)).ToLinearVector());
+        var background = (scene.Background ?? DefaultBackground).ToLinearVector();
+        WriteVector(json, "background", background);
         WebMesh.WriteNumbers(json, "display", [(int)scene.Tone, scene.Exposure, scene.Fog?.Density ?? 0]);
-        WriteVector(json, "fog", scene.Fog?.Colour?.ToLinearVector() ?? scene.Sky?.HorizonRadiance
-            ?? (scene.Background ?? new(0.118, 0.133, 0.161)).ToLinearVector());
+        WriteVector(json, "fog", scene.Fog?.Colour?.ToLinearVector() ?? scene.Sky?.HorizonRadiance ?? background);
         json.WriteStartArray("lights");
         foreach (var light in SceneLights.Of(_scene).Take(MaxLights))
         {
@@ -186,7 +189,7 @@ internal sealed class WebScene
             WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
             var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;
             WebMesh.WriteNumbers(json, "whole", [.. WebMesh.Components(bounds.Centre), .. WebMesh.Components(bounds.Size)]);
-            if (placed.Declaration.Gradient is { Kind: not GradientKind.None } gradient)
+            if (placed.Gradient is { Kind: not GradientKind.None } gradient)
             {
                 Lose(gradient.HasSurface, "a gradient changes colours in the page, but neither roughness nor glow");
                 json.WriteNumber("gradient", (int)gradient.Kind);

@@ -111,6 +111,8 @@ public sealed class LevelMaterialTests : IDisposable
         Assert.Equal([0, 1, 1, 2], new long[] { 0, 3, 8, 9 }.Select(Choice.OfLevels([0, 3, 9]).SelectAt));
         Assert.Equal(Choice.OfLevels([0, 3]), Choice.OfLevels([0, 3]).WithSeed(7));
         Assert.NotEqual(Choice.OfLevels([0, 3]), Choice.OfLevels([0, 4]));
+        var choice = Choice.OfLevels([0, 3, 9]);
+        Assert.Equal(0, Allocation.Measure(() => choice.SelectAt(7)));
         foreach (var levels in (ImmutableArray<int>[])[[], default, [1], [0, 0], [0, 3, 2], [.. Enumerable.Range(0, 65)]])
         {
             Assert.ThrowsAny<ArgumentException>(() => Choice.OfLevels(levels));

@@ -6,6 +6,7 @@ using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
+using FractalEngine.Parsing.Mtl;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Support;
 
@@ -258,6 +259,7 @@ public sealed class GltfReaderTests : IDisposable
         Assert.Equal(new(0.5, 0, 0), material.Emission);
         Assert.Equal(png.ToArray(), material.Texture!.Contents);
         Assert.Equal("Brass", Assert.Single(model.Mesh.Groups).Material);
+        Assert.DoesNotContain("map_Kd", MtlWriter.Write([material], _folder["a.mtl"]), StringComparison.Ordinal);
         // The first row of an image is at v = 0 in glTF, and at v = 1 here.
         Assert.Equal((double[])[0, 1, 1, 1, 1, 0, 0, 0], model.Mesh.TextureCoordinates);
         Near.Equal(0.7353569, model.Mesh.Colours[3], 1e-6);

@@ -46,6 +46,15 @@ public class WebExportTests
     }
 
     [Fact]
+    public void Page_OfAFractalWithAGradient_HasItsColours()
+    {
+        using var folder = new TemporaryFolder();
+        var page = PageReader.Of(folder.Write(
+            "g.fdo", "gradient height (1, 0, 0) (0, 0, 1)\n<$>. [((1, 2, 0), #, (0.5))^0..3] box\n"), new());
+        Assert.Equal([0, 1, 0, 0, 1, 0, 0, 1], PageReader.Numbers(page["objects"][0].GetProperty("stops")));
+    }
+
+    [Fact]
     public void Page_OfAChoiceByLevel_ChoosesAsTheExpansionDoes()
     {
         using var folder = new TemporaryFolder();
