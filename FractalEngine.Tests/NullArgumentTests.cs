@@ -31,7 +31,7 @@ public sealed class NullArgumentTests : IDisposable
     private static readonly string[] Unchecked =
     [
         "AdaptiveQuality", "AnimationOutput", "AtomicFile", "BodyCsvWriter", "BodyDescription", "CameraFraming",
-        "CameraNavigation", "CameraZoom", "ClosedSurface", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
+        "CameraNavigation", "CameraZoom", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
         "EditedFileWriter", "ExactFractalCollider", "FileEdits", "FlyingCamera", "FractalAddress", "FractalBounds",
         "FractalComments", "FractalGenerator", "FractalNumber", "FractalPartList", "FractalSteps", "FractalWriter",
         "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser", "NewFile",
