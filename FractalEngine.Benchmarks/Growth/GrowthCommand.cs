@@ -15,6 +15,7 @@ internal static class GrowthCommand
     private static readonly Dictionary<string, Action<TableOptions>> Tables = new()
     {
         ["growth-depth"] = GrowthByDepth.Write,
+        ["growth-million"] = DeepPercentiles.Write,
         ["growth-bodies"] = GrowthByBodies.Write,
         ["growth-maps"] = GrowthByMaps.Write,
         ["growth-wide"] = GrowthByWidth.Write,

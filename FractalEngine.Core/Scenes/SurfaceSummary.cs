@@ -75,7 +75,16 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
     private static FractalHierarchy? HierarchyOf(Fractal fractal) =>
         fractal.Description.MapCount <= MaxMaps ? fractal.FindHierarchy() : null;
 
-    /// <summary>The volume within a closed mesh, also one that is wound inwards.</summary>
-    private static double VolumeOf(Mesh mesh) => mesh.FaceCount == 0 ? 0 : Math.Abs(
-        MassProperties.Of(Enumerable.Range(0, mesh.FaceCount).Select(mesh.Face), mesh.UsedBounds.Centre).Volume);
+    /// <summary>The volume within a closed mesh, also one that is wound inwards: of tetrahedra over its faces, with their signs.</summary>
+    private static double VolumeOf(Mesh mesh)
+    {
+        var (centre, sum) = (mesh.UsedBounds.Centre, 0.0);
+        for (var face = 0; face < mesh.FaceCount; face++)
+        {
+            var (a, b, c) = mesh.Face(face);
+            sum += Vector.Dot(a - centre, Vector.Cross(b - centre, c - centre));
+        }
+
+        return Math.Abs(sum) / 6;
+    }
 }

@@ -1,5 +1,4 @@
-using System.Runtime.InteropServices;
-using FractalEngine.Core.Maths;
+using System.Numerics;
 
 namespace FractalEngine.Core.Geometry.Surfaces;
 
@@ -12,11 +11,19 @@ public static class VertexWelding
     {
         ArgumentNullException.ThrowIfNull(mesh);
         var representatives = new int[mesh.VertexCount];
-        var firstVertices = new Dictionary<Vector, int>(mesh.VertexCount);
+        // A table of vertices plus one, 0 where free, at most half full: a collision is resolved in the next slots.
+        var slots = new int[BitOperations.RoundUpToPowerOf2((2 * (uint)mesh.VertexCount) + 1)];
         for (var vertex = 0; vertex < representatives.Length; vertex++)
         {
-            ref var first = ref CollectionsMarshal.GetValueRefOrAddDefault(firstVertices, mesh.Vertex(vertex), out var exists);
-            representatives[vertex] = first = exists ? first : vertex;
+            var position = mesh.Vertex(vertex);
+            var slot = HashCode.Combine(position.X, position.Y, position.Z) & (slots.Length - 1);
+            while (slots[slot] > 0 && mesh.Vertex(slots[slot] - 1) != position)
+            {
+                slot = (slot + 1) & (slots.Length - 1);
+            }
+
+            slots[slot] = slots[slot] > 0 ? slots[slot] : vertex + 1;
+            representatives[vertex] = slots[slot] - 1;
         }
 
         return representatives;
