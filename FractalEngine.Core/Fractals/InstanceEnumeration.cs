@@ -56,12 +56,15 @@ public static class InstanceEnumeration
         var largest = new PriorityQueue<(int Fractal, LevelState State, MeshInstance Part), (double Size, long Order)>();
         var found = new List<(int Fractal, MeshInstance Instance)>();
         var steps = 0L;
+        // What is below the precision of its fractal stays as it is, as for colliders: a map without end has no more to show.
+        var smallest = fractals.Select(static one => LevelPrecision.RelativePrecision
+            * (one.Placement.Linear.Absolute() * one.Fractal.Bounds.Size).Length()).ToArray();
         for (var i = 0; i < fractals.Count; i++)
         {
             Add(i, StateExpansion.Start(fractals[i].Fractal.HierarchyBySets));
         }
 
-        // One map without end makes ever smaller ones, and never more.
+        // One map that hardly shrinks makes ever smaller ones, and never more.
         while (steps < FractalLimits.ComparedProducts.Value && largest.TryPeek(out var place, out _))
         {
             var hierarchy = fractals[place.Fractal].Fractal.HierarchyBySets;
@@ -84,13 +87,13 @@ public static class InstanceEnumeration
         void Add(int index, (LevelState State, MeshInstance Part) place)
         {
             var (fractal, placement) = fractals[index];
-            if (fractal.HierarchyBySets.IsBase(place.State.Level))
+            var size = (placement * place.Part.Map).Linear.Absolute() * fractal.BaseMeshes[place.Part.MeshIndex].UsedBounds.Size;
+            if (fractal.HierarchyBySets.IsBase(place.State.Level) || size.Length() < smallest[index])
             {
                 found.Add((index, place.Part));
                 return;
             }
 
-            var size = (placement * place.Part.Map).Linear.Absolute() * fractal.BaseMeshes[place.Part.MeshIndex].UsedBounds.Size;
             largest.Enqueue((index, place.State, place.Part), (-size.Length(), steps++));
         }
     }

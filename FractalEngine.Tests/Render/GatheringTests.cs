@@ -41,7 +41,7 @@ public sealed class GatheringTests
     [SkippableFact]
     public void Gather_TurnedByAnEighthOfAPixel_HardlyChanges()
     {
-        var scene = LoadedScene.Of(new Scene { Objects = [new(RenderScenes.Menger(4).Fractal) { Colour = Colour.White }] });
+        var scene = LoadedScene.Of(new Scene { Objects = [new(RenderScenes.Menger(3).Fractal) { Colour = Colour.White }] });
         var view = View.Of(scene, (double)Width / Height);
         var angle = 2 * view.HalfHeight / Height / 8;
         var turned = view with { Camera = view.Camera with { Rotation = view.Camera.Rotation + new Vector(angle, angle, 0) } };
