@@ -33,7 +33,7 @@ public sealed class CsvExport : SceneExport
             {
                 var colour = part.ColourOf(part.Groups is [var first, ..] ? first.Material : "", instance.Tint);
                 writer.Write($"{name},{instance.Path},{mesh},");
-                foreach (var number in MapRows.Of(instance.Map))
+                foreach (var number in TransformRows.Of(instance.Map))
                 {
                     writer.Write(string.Create(CultureInfo.InvariantCulture, $"{number:R},"));
                 }

@@ -32,7 +32,7 @@ internal sealed class WebLevels
             starts.Add(_values.Count / 12);
             foreach (var map in set.Maps)
             {
-                _values.AddRange(MapRows.Of(map));
+                _values.AddRange(TransformRows.Of(map));
             }
         }
 

@@ -177,7 +177,7 @@ internal sealed class WebScene
         {
             json.WriteStartObject();
             json.WriteNumber("model", _models.IndexOf(placed.Model));
-            WebMesh.WriteNumbers(json, "map", MapRows.Of(placed.ObjectToWorld));
+            WebMesh.WriteNumbers(json, "map", TransformRows.Of(placed.ObjectToWorld));
             var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0 || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
             json.WriteBoolean("isMirrored", turnsOver);
             WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());

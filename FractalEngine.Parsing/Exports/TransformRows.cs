@@ -3,7 +3,7 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Parsing.Exports;
 
 /// <summary>The numbers of a map as most formats have them.</summary>
-internal static class MapRows
+internal static class TransformRows
 {
     /// <summary>Lists the three rows of a map, each with its coordinate of the translation at the end: [3 × 4].</summary>
     public static double[] Of(AffineMap map)
