@@ -163,9 +163,9 @@ internal sealed class ModelLoader
         }
 
         // What stands once is one mesh. No file has any of these alone.
-        IEnumerable<(Mesh Mesh, string Name, ImmutableArray<AffineMap> Places)> parts = parsed.Mesh.FaceCount == 0
-            ? parsed.Instances : parsed.Instances.Prepend((parsed.Mesh, "others", [AffineMap.Identity]));
-        return new FractalModel(Fractal.Sum(parts.Select(part => new Fractal(new([new TransformationSet(part.Places)]), part.Mesh)
+        IEnumerable<(Mesh Mesh, string Name, TransformationSet Places)> parts = parsed.Mesh.FaceCount == 0
+            ? parsed.Instances : parsed.Instances.Prepend((parsed.Mesh, "others", TransformationSet.Of(Transformation.Identity)));
+        return new FractalModel(Fractal.Sum(parts.Select(part => new Fractal(new([part.Places]), part.Mesh)
         {
             BaseMeshPath = $"{fullPath}#{part.Name}",
         })))

@@ -17,8 +17,8 @@ internal static class Stage
     private const double MaxLight = 10;
 
     /// <summary>
-    /// Puts the only object of a scene onto the stage. Where its file has lights, those are all that there are; too bright ones, as those of
-    /// lamps in candela are, make images find their exposure.
+    /// Puts the only object of a scene onto the stage. Where its file has lights, those are all that there are; too bright ones, such as
+    /// those of lamps in candela, make images find their exposure.
     /// </summary>
     /// <param name="scene">The scene. The sun stands on the same side of the image, whatever its handedness.</param>
     /// <param name="isFractal">Whether the file is that of a fractal, which has colours in any case.</param>

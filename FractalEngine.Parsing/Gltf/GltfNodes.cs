@@ -1,8 +1,10 @@
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Text;
 using SharpGLTF.Schema2;
 using SharpGLTF.Transforms;
+using Mesh = SharpGLTF.Schema2.Mesh;
 
 namespace FractalEngine.Parsing.Gltf;
 
@@ -41,18 +43,28 @@ internal static class GltfNodes
         return result;
     }
 
-    /// <summary>Returns the places of the mesh of a node: one, or those of its instances.</summary>
-    public static IEnumerable<AffineMap> PlacesOf(Node node, AffineMap toWorld) =>
-        node.GetExtension<MeshGpuInstancing>() is not { } instancing ? [toWorld]
-        : Enumerable.Range(0, instancing.Count).Select(index => toWorld * ToMap(new(instancing.GetLocalMatrix(index))));
+    /// <summary>Returns the places of the mesh of a node, with colours that instances have: one, or those of its instances.</summary>
+    public static IEnumerable<(AffineMap Map, MapColour Colour)> PlacesOf(Node node, AffineMap toWorld)
+    {
+        if (node.GetExtension<MeshGpuInstancing>() is not { } instancing)
+        {
+            return [(toWorld, default)];
+        }
+
+        var colours = instancing.Accessors.GetValueOrDefault("_COLOR_0")?.AsColorArray(1);
+        return Enumerable.Range(0, instancing.Count).Select(index => (
+            toWorld * ToMap(new(instancing.GetLocalMatrix(index))),
+            colours is null ? default : new MapColour(new Colour(colours[index].X, colours[index].Y, colours[index].Z).FromLinear(), 1)));
+    }
 
     /// <summary>Tells whether a place can be a map of a fractal: it flattens nothing, and stays within the numbers of files.</summary>
     public static bool HasInverse(AffineMap place) =>
         place.IsFinite() && Math.Abs(place.Linear.Determinant()) is > 0 and < double.PositiveInfinity;
 
     /// <summary>The number of corners that a place of a mesh takes.</summary>
-    public static long CornerCount(Mesh mesh) => mesh.Primitives.Sum(
-        static primitive => primitive.DrawPrimitiveType < PrimitiveType.TRIANGLES ? 0L : Math.Max(primitive.GetVertexAccessor("POSITION")?.Count ?? 0, primitive.IndexAccessor?.Count ?? 0));
+    public static long CornerCount(Mesh mesh) => mesh.Primitives
+        .Where(static primitive => primitive.DrawPrimitiveType >= PrimitiveType.TRIANGLES)
+        .Sum(static primitive => (long)Math.Max(primitive.GetVertexAccessor("POSITION")?.Count ?? 0, primitive.IndexAccessor?.Count ?? 0));
 
     /// <summary>
     /// Chooses the meshes that stand at several places, those first that would take the most memory; no more of them, and of their places,
@@ -66,7 +78,8 @@ internal static class GltfNodes
             .Where(static one => one.Count > 1 && CornerCount(one.Mesh) > 0)
             .OrderByDescending(static one => (one.Count - 1) * CornerCount(one.Mesh)).Take((int)ParsingLimits.BaseFiles.Value - 1);
         var (meshes, places) = (0, 0L);
-        foreach (var (mesh, count) in counted.Where(one => places + one.Count <= MaxPlaces && (meshes + 1) * (places + one.Count) <= MaxVisits))
+        foreach (var (mesh, count) in counted.Where(
+            one => places + one.Count <= Math.Min(MaxPlaces, MaxVisits / (meshes + 1))))
         {
             meshes++;
             places += count;

@@ -1,5 +1,5 @@
-using System.Collections.Immutable;
 using System.Text.Json;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Meshes;
@@ -29,7 +29,7 @@ public static class GltfReader
         "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_dispersion", "KHR_materials_diffuse_transmission",
     ];
 
-    /// <summary>Reads a file.</summary>
+    /// <summary>Reads a file as one mesh, or as instances of its meshes.</summary>
     /// <param name="path">Path of the file.</param>
     /// <param name="fileName">Name of the file in messages, and before the numbers of its images.</param>
     /// <param name="readOther">Reads another file that the file names: its bytes. It may throw a <see cref="SourceException"/>.</param>
@@ -72,7 +72,7 @@ public static class GltfReader
         var (materials, cornerCount) = (new GltfMaterials(path), 0L);
         var rest = new GltfMeshBuilder(materials);
         var instanced = keepsInstances ? GltfNodes.ChooseInstanced(nodes).ToDictionary(
-            static mesh => mesh, _ => (Mesh: new GltfMeshBuilder(materials), Places: new List<AffineMap>())) : [];
+            static mesh => mesh, _ => (Mesh: new GltfMeshBuilder(materials), Places: new List<(AffineMap Map, MapColour Colour)>())) : [];
         foreach (var (mesh, one) in instanced)
         {
             Add(one.Mesh, mesh, mesh.Name ?? "", AffineMap.Identity);
@@ -83,13 +83,13 @@ public static class GltfReader
             var places = instanced.GetValueOrDefault(node.Mesh).Places;
             foreach (var place in GltfNodes.PlacesOf(node, toWorld))
             {
-                if (places is not null && GltfNodes.HasInverse(place))
+                if (places is not null && GltfNodes.HasInverse(place.Map))
                 {
                     places.Add(place);
                     continue;
                 }
 
-                Add(rest, node.Mesh, node.Name ?? "", place);
+                Add(rest, node.Mesh, node.Name ?? "", place.Map);
             }
         }
 
@@ -98,11 +98,11 @@ public static class GltfReader
             fileName, 1, 1, DiagnosticSeverity.Warning,
             FormattableString.Invariant($"points and lines are not shown: {otherCount} primitives are left out"))])
         {
-            Instances = [.. instanced.Select(static one => (one.Value.Mesh.Complete(), one.Key.Name ?? "", one.Value.Places.ToImmutableArray()))],
+            Instances = [.. instanced.Select(static one => (one.Value.Mesh.Complete(), one.Key.Name ?? "", ToSet(one.Value.Places)))],
             Materials = materials.ByName,
             ByteCount = bytes.Length,
         };
-        var bounds = result.Instances.Aggregate(result.Mesh.UsedBounds, static (box, one) => one.Places.Aggregate(
+        var bounds = result.Instances.Aggregate(result.Mesh.UsedBounds, static (box, one) => one.Places.Maps.Aggregate(
             box, (box, place) => BoundingBox.Union(box, one.Mesh.UsedBounds.Transform(place))));
         return result with { Surroundings = GltfSurroundings.Find(nodes, bounds) };
 
@@ -144,6 +144,9 @@ public static class GltfReader
             throw new SourceException(fileName, $"the file requires the extension {unknown}, which is not read");
         }
     }
+
+    private static TransformationSet ToSet(List<(AffineMap Map, MapColour Colour)> places) =>
+        new([.. places.Select(static place => place.Map)], [.. places.Select(static place => place.Colour)]);
 
     private static SourceException LimitError(string fileName) => new(
         fileName, $"the meshes of the file have more than the limit of {ParsingLimits.GltfCorners.Value} corners", true);

@@ -1,7 +1,7 @@
 using System.Collections.Immutable;
 using System.Collections.ObjectModel;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
 
@@ -28,7 +28,7 @@ public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
     /// Meshes that stand at several places, beside <see cref="Mesh"/>, each with its name in the file and with its places; empty where the
     /// format has none, or all is one mesh.
     /// </summary>
-    public ImmutableArray<(Mesh Mesh, string Name, ImmutableArray<AffineMap> Places)> Instances { get; init; } = [];
+    public ImmutableArray<(Mesh Mesh, string Name, TransformationSet Places)> Instances { get; init; } = [];
 
     /// <summary>Camera and lights of the file, in a scene without objects; null for none.</summary>
     public Scene? Surroundings { get; init; }

@@ -37,10 +37,11 @@ internal sealed class GltfPart
         {
             var material = part.Placed.Model.Materials.GetValueOrDefault(group.Material) ?? new("colour");
             // Where maps mix colours, these are those of instances.
-            material = material with { Diffuse = part.HasTints ? Colour.White : part.ColourOf(group.Material, Tint.None) };
+            material = material with { Diffuse = part.Placed.HasTints ? Colour.White : part.ColourOf(group.Material, Tint.None) };
             var vertices = new ExportedCorners(mesh, hasSurface: true);
             return new Group(
-                surfaces.Add(material), vertices, vertices.Add(group.FirstFace, group.FaceCount), material.Texture ?? material.NormalTexture);
+                surfaces.Add(material), vertices, vertices.Add(group.FirstFace, group.FaceCount),
+                material.Texture ?? material.NormalTexture, group.Material);
         })];
     }
 
@@ -71,8 +72,8 @@ internal sealed class GltfPart
         var skewed = counts[(int)Kind.Skewed];
         if (skewed > 0 && _groups.Length > 0)
         {
-            var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(
-                group, _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed), skewed))]);
+            var places = _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed);
+            var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(group, places, skewed, _part.Placed.HasTints))]);
             _document.AddNode(new() { ["name"] = _part.ObjectName, ["mesh"] = mesh });
         }
 
@@ -100,7 +101,7 @@ internal sealed class GltfPart
             }),
             ["SCALE"] = AddVectors(maps, count, static instance => ScaleOf(instance.Map.Linear)),
         };
-        if (_part.HasTints)
+        if (_part.Placed.HasTints)
         {
             var group = _part.Groups.First(static group => group.FaceCount > 0).Material;
             attributes["_COLOR_0"] = AddVectors(maps, count, instance => _part.ColourOf(group, instance.Tint).ToLinearVector());
@@ -115,7 +116,7 @@ internal sealed class GltfPart
         _document.Add("meshes", new() { ["name"] = _part.ObjectName, ["primitives"] = new JsonArray(primitives) });
 
     /// <summary>Adds the faces of a group at some places, as one primitive.</summary>
-    private JsonObject AddPrimitive(Group group, IEnumerable<MeshInstance> places, long count)
+    private JsonObject AddPrimitive(Group group, IEnumerable<MeshInstance> places, long count, bool isTinted = false)
     {
         var vertices = group.Vertices;
         var total = count * vertices.All.Count;
@@ -148,9 +149,11 @@ internal sealed class GltfPart
             });
         }
 
-        if (vertices.HasColours)
+        if (vertices.HasColours || isTinted)
         {
-            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, static (_, vertices, i) => vertices.ColourAt(i).ToLinearVector());
+            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, (place, vertices, i) =>
+                (vertices.HasColours ? vertices.ColourAt(i).ToLinearVector() : Vector.One).Stretch(
+                isTinted ? _part.ColourOf(group.Name, place.Tint).ToLinearVector() : Vector.One));
         }
 
         return new JsonObject
@@ -246,5 +249,6 @@ internal sealed class GltfPart
     /// <param name="Vertices">Their corners, each different one once.</param>
     /// <param name="Indices">The corners of the faces, [faces × 3].</param>
     /// <param name="Texture">The texture whose place the coordinates have; null for none.</param>
-    private sealed record Group(int Material, ExportedCorners Vertices, int[] Indices, MaterialTexture? Texture);
+    /// <param name="Name">Name of the material in the mesh.</param>
+    private sealed record Group(int Material, ExportedCorners Vertices, int[] Indices, MaterialTexture? Texture, string Name);
 }

@@ -43,7 +43,7 @@ public sealed class PlyExport : SceneExport
         }
 
         writer.Flush();
-        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene, hasColours: true) };
+        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene) };
     }
 
     private static void WriteVertices(ExportedPart part, PlyVertices vertices, bool hasColours, LittleEndianWriter writer)

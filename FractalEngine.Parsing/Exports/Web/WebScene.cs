@@ -178,7 +178,8 @@ internal sealed class WebScene
             json.WriteStartObject();
             json.WriteNumber("model", _models.IndexOf(placed.Model));
             WebMesh.WriteNumbers(json, "map", TransformRows.Of(placed.ObjectToWorld));
-            var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0 || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
+            var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0
+                || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
             json.WriteBoolean("isMirrored", turnsOver);
             WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
             var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;

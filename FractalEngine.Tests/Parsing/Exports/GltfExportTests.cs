@@ -8,6 +8,7 @@ using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports;
 using FractalEngine.Parsing.Exports.Gltf;
+using FractalEngine.Parsing.Exports.Ply;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Exports;
@@ -98,9 +99,10 @@ public sealed class GltfExportTests : IDisposable
             c (0, 0, -5) # 60
             light directional (0, -1, 0) (1, 0.5, 0.5) 2
             light point (1, 2, 3) (1, 1, 1) 1 10
+            light ambient (1, 1, 1) 0.5
             o "box.fdo" ((0, 0, 1), #, #) colour (0.5, 1, 1)
             """);
-        Assert.Empty(Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses);
+        Assert.Equal(["light from all around is not written"], Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses.ToArray());
         var json = Json();
         var material = json.GetProperty("materials")[0];
         var surface = material.GetProperty("pbrMetallicRoughness");
@@ -123,6 +125,35 @@ public sealed class GltfExportTests : IDisposable
         Near.Equal(2 * Math.PI, lights[0].GetProperty("intensity").GetDouble(), 1e-12);
         // A tenth of the range of 10 is 1, where the light brings π.
         Near.Equal(Math.PI, lights[1].GetProperty("intensity").GetDouble(), 1e-12);
+    }
+
+    [Fact]
+    public void Gradients_InFilesWithColours_AreThoseOfEachInstance()
+    {
+        File.WriteAllText(_folder["f.fdo"], "up.p. (p, #, #)\nx. [#, up.(0, 3, 0)] box\n<$>. x\n");
+        File.WriteAllText(_folder["s.sdo"], "o \"f.fdo\" # colour (1, 1, 1) gradient height (1, 0, 0)");
+        var scene = AssetLoader.Load(_folder["s.sdo"]).Scene;
+        Assert.Empty(Export(scene).Losses);
+        var fractal = ((FractalModel)AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model).Fractal;
+        var set = (Core.Fractals.Descriptions.TransformationSet)fractal.Description.Steps[0];
+        // Centres of boxes of height 1 are at an eighth of a height of 4, and at seven eighths: so much red is in white, of linear light.
+        foreach (var (map, colour) in set.Maps.Zip(set.Colours))
+        {
+            var (red, green, blue) = colour.Colour.ToLinear();
+            var part = (map.Translation.Y + 0.5) / 4;
+            Near.Equal(new Vector(1, 1 - part, 1 - part), new(red, green, blue), 1e-6);
+        }
+
+        using var stream = new MemoryStream();
+        Assert.Empty(new PlyExport().Write(scene, new(), stream).Losses);
+        var bytes = stream.ToArray();
+        var start = Encoding.ASCII.GetString(bytes).IndexOf("end_header\n", StringComparison.Ordinal) + 11;
+        // Vertices of 27 bytes, eight of each box. The sRGB of 7/8 and of 1/8 is 0.943 and 0.389.
+        foreach (var vertex in Enumerable.Range(0, 16).Select(vertex => start + (27 * vertex)))
+        {
+            var other = BitConverter.ToDouble(bytes, vertex + 8) > 1 ? 99 : 240;
+            Assert.Equal((255, other, other), (bytes[vertex + 24], bytes[vertex + 25], bytes[vertex + 26]));
+        }
     }
 
     [Theory]
