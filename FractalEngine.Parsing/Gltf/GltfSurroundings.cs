@@ -1,6 +1,5 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using SharpGLTF.Schema2;
