@@ -4,6 +4,7 @@ using System.Globalization;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Assets.References;
@@ -52,6 +53,16 @@ internal sealed class SharedOptions
     public Option<int?> Seed { get; } = NumberOption.Integer(
         SeedName, "N", 0, Choice.MaxSeed, "Seed of fractals by chance, overriding their files, and of a traced image (default: 0).");
 
+    private readonly Option<Handedness?> _handed = WordOption.Single(
+        "--from-handed", "Handedness of the coordinates of a mesh or fractal (default: right for meshes, left for fractals).",
+        ("right", Handedness.Right), ("left", Handedness.Left));
+
+    private readonly Option<Vector?> _up = WordOption.Single(
+        "--from-up", "The axis of a mesh or fractal that points up (default: y).", ("y", Vector.Zero), ("z", new Vector(90, 0, 0)));
+
+    private readonly Option<double?> _unit = NumberOption.Positive(
+        "--from-unit", "LENGTH", "Length of the unit of a mesh or fractal, in scene units (default: 1).");
+
     /// <summary>Adds the input file and the options of loading to a command.</summary>
     public void AddTo(Command command, bool hasComposition = true)
     {
@@ -62,6 +73,7 @@ internal sealed class SharedOptions
             command.Add(Values);
             command.Add(Composition);
             command.Add(Seed);
+            AddAll(command, _handed, _up, _unit);
         }
     }
 
@@ -83,6 +95,8 @@ internal sealed class SharedOptions
         {
             Composition = result.GetValue(Composition),
             Seed = result.GetValue(Seed),
+            Handedness = result.GetValue(_handed),
+            Placement = new(Vector.Zero, result.GetValue(_up) ?? Vector.Zero, (result.GetValue(_unit) ?? 1) * Vector.One),
             Values = ImmutableDictionary<string, double>.Empty.SetItems((result.GetValue(Values) ?? []).Select(ParseValue)),
         };
     }

@@ -45,7 +45,7 @@ public static class InstanceEnumeration
     /// </summary>
     /// <param name="fractals">Fractals in affine composition, perhaps infinite, each with the map to the common space.</param>
     /// <param name="maxInstances">Maximum number of instances; there are at least as many as fractals.</param>
-    /// <returns>The instances, each with the index of its fractal and the map from its base mesh to the frame of that.</returns>
+    /// <returns>The instances, each with its path, the index of its fractal, and the map from its base mesh to that.</returns>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     /// <remarks>Memory and time are proportional to the number of instances. What overlaps counts by itself.</remarks>
@@ -61,7 +61,7 @@ public static class InstanceEnumeration
             * (one.Placement.Linear.Absolute() * one.Fractal.Bounds.Size).Length()).ToArray();
         for (var i = 0; i < fractals.Count; i++)
         {
-            Add(i, StateExpansion.Start(fractals[i].Fractal.HierarchyBySets));
+            Add(i, StateExpansion.Start(fractals[i].Fractal.HierarchyBySets, hasPaths: true));
         }
 
         // One map that hardly shrinks makes ever smaller ones, and never more.
@@ -69,7 +69,7 @@ public static class InstanceEnumeration
         {
             var hierarchy = fractals[place.Fractal].Fractal.HierarchyBySets;
             var level = hierarchy.AllLevels.At(place.State.Level);
-            var children = level.Edges.Select(edge => StateExpansion.Enter(hierarchy, place.State, place.Part, edge))
+            var children = level.Edges.Select(edge => StateExpansion.Enter(hierarchy, place.State, place.Part, edge, hasPaths: true))
                 .Where(child => !hierarchy.AllLevels.At(child.State.Level).Box.IsEmpty).ToArray();
             if (found.Count + largest.Count - 1 + children.Length > maxInstances)
             {

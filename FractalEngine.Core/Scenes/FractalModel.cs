@@ -20,7 +20,7 @@ public sealed class FractalModel(Fractal fractal) : Model
     public Fractal Fractal { get; } = fractal ?? throw new ArgumentNullException(nameof(fractal));
 
     /// <summary>
-    /// The materials of each base mesh, in their order; empty where <see cref="Model.Materials"/> are those of the only mesh.
+    /// The materials of each base mesh, in their order; empty where <see cref="Model.Materials"/> are those of all meshes.
     /// </summary>
     public ImmutableArray<ImmutableDictionary<string, Material>> MaterialsByMesh { get; init; } = [];
 

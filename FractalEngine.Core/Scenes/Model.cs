@@ -24,6 +24,12 @@ public abstract class Model
     /// <summary>Size in bytes of the files that the model was loaded from, the base mesh's included; 0 for a model made in code.</summary>
     public long FileBytes { get; init; }
 
+    /// <summary>
+    /// What a scene has around the model where it is shown alone, as its file says: camera, lights, handedness; without objects. Null for
+    /// what the program chooses.
+    /// </summary>
+    public Scene? Surroundings { get; init; }
+
     /// <summary>The name for messages and labels: that of the file, or the kind of model where there is no file.</summary>
     public string Name => SourcePath is { } path ? Path.GetFileName(path) : KindName;
 

@@ -37,6 +37,13 @@ public sealed class PlacedModel(SceneObject declaration, Model model)
     public Gradient? Gradient =>
         Declaration.Gradient ?? (Declaration.Colour is null && Model is FractalModel fractal ? fractal.Gradient : null);
 
+    /// <summary>The gradient where instances show it: those of a fractal of affine composition without materials; null for none.</summary>
+    public Gradient? ShownGradient => Gradient is { Kind: not GradientKind.None } gradient && Model.Materials.IsEmpty
+        && Model is FractalModel { Fractal.Description.Composition: Composition.Affine } ? gradient : null;
+
+    /// <summary>Whether instances differ in colour, by their maps or by a gradient.</summary>
+    public bool HasTints => Model is FractalModel { Fractal.HasColours: true } || ShownGradient is not null;
+
     /// <summary>Maps the model's frame to world space: the paper's global matrix m.</summary>
     public AffineMap ObjectToWorld { get; internal init; } = declaration.Placement.ToAffineMap();
 

@@ -1,15 +1,17 @@
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
+using BigInteger = System.Numerics.BigInteger;
 
 namespace FractalEngine.Core.Scenes;
 
 /// <summary>Area and volume of all that a scene shows, and whether its meshes are closed. What overlaps counts each time.</summary>
 /// <param name="Area">
-/// Scene units²; null where it is not known: of what is infinite or componentwise, of fractals whose maps are not all similarities, and
-/// of those of more than 20,000 maps.
+/// Scene units²; null where it is not known: of what is infinite or componentwise, and of more than five million faces of fractals that
+/// have maps other than similarities, or more than 20,000 maps.
 /// </param>
 /// <param name="Volume">Scene units³; null where a mesh is open, and of what is infinite, componentwise, or of so many maps.</param>
 /// <param name="Open">The first mesh that is not closed and the middle of an open edge of it, in its own frame; null where all are.</param>
@@ -17,6 +19,9 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
 {
     // Levels take some hundred bytes a map.
     private const long MaxMaps = 20_000;
+
+    // About a second, and 400 MB for a while.
+    private const long MaxExpandedFaces = 5_000_000;
 
     /// <summary>Measures a scene, of fractals level by level.</summary>
     /// <remarks>Cost O(faces of all meshes): about a second for a million.</remarks>
@@ -27,6 +32,7 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
         var (area, volume) = ((double?)0, (double?)0);
         // Many objects may share a model.
         var known = new Dictionary<Model, (double? Area, double? Volume)>(ReferenceEqualityComparer.Instance);
+        var left = MaxExpandedFaces;
         foreach (var placed in scene.Objects)
         {
             if (!known.TryGetValue(placed.Model, out var own))
@@ -35,9 +41,7 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
             }
 
             var linear = placed.ObjectToWorld.Linear;
-            area += linear.IsSimilarity() ? own.Area * linear.V1.LengthSquared()
-                : placed.Model is MeshModel { Mesh: var mesh } ? FractalGenerator.Flatten(mesh, [new(linear, Vector.Zero)]).SurfaceArea()
-                : null;
+            area += (linear.IsSimilarity() ? own.Area * linear.V1.LengthSquared() : null) ?? ExpandedArea(placed, ref left);
             volume += own.Volume * Math.Abs(linear.Determinant());
         }
 
@@ -54,6 +58,13 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
                 yield return (model.MeshNameAt(index), edge);
             }
         }
+    }
+
+    private static double? ExpandedArea(PlacedModel placed, ref long left)
+    {
+        left -= (long)BigInteger.Min(placed.Model.FaceCount ?? MaxExpandedFaces + 1, MaxExpandedFaces + 1);
+        var isComponentwise = placed.Model is FractalModel { Fractal.Description.Composition: Composition.Componentwise };
+        return left >= 0 && !isComponentwise ? new[] { placed }.Flatten(MaxExpandedFaces).SurfaceArea() : null;
     }
 
     private static double? MeasureArea(Model model) => model is not FractalModel { Fractal: var fractal }

@@ -114,11 +114,16 @@ public sealed class AssetLoader
 
     private LoadedFile CreateSingleObjectFile(FileKind kind, Model model)
     {
-        var declared = new SceneObject(Path.GetFileName(_fullPath), Transformation.Identity) { Model = model };
         // Meshes come from other tools, which are right-handed; fractals are seen as the paper's figures show them.
-        var handedness = kind == FileKind.Mesh ? Handedness.Right : Handedness.Left;
-        var scene = _options.IsStaged ? Stage.Of(declared, handedness) : new() { Handedness = handedness, Objects = [declared] };
-        return CreateLoadedFile(kind, LoadedScene.Of(scene), null);
+        var scene = model.Surroundings ?? new() { Handedness = kind == FileKind.Mesh ? Handedness.Right : Handedness.Left };
+        // Camera and lights of a file stand where it has them.
+        scene = _options.Placement == Transformation.Identity ? scene : new() { Handedness = scene.Handedness };
+        scene = scene with
+        {
+            Handedness = _options.Handedness ?? scene.Handedness,
+            Objects = [new(Path.GetFileName(_fullPath), _options.Placement) { Model = model }],
+        };
+        return CreateLoadedFile(kind, LoadedScene.Of(_options.IsStaged ? Stage.Of(scene, kind == FileKind.Fractal) : scene), null);
     }
 
     private LoadedFile CreateLoadedFile(FileKind kind, LoadedScene scene, ParsedScene? parsedScene) =>

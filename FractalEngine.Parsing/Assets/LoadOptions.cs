@@ -1,5 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets.References;
 using FractalEngine.Parsing.Text;
 
@@ -48,6 +50,15 @@ public sealed record LoadOptions
     /// a palette by height. False leaves it to whoever draws it.
     /// </summary>
     public bool IsStaged { get; init; }
+
+    /// <summary>How a mesh or fractal that is opened alone is shown; null for as its file or its format says.</summary>
+    public Handedness? Handedness { get; init; }
+
+    /// <summary>
+    /// Where a mesh or fractal stands that is opened alone, such as turned for a file whose z axis points up. Elsewhere than at the
+    /// identity, camera and lights of its file are left out.
+    /// </summary>
+    public Transformation Placement { get; init; } = Transformation.Identity;
 
     /// <summary>Whether all objects of one file share its model. False loads the file once per object, for comparison.</summary>
     public bool ShareModels { get; init; } = true;

@@ -7,6 +7,7 @@ using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Images;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Parsing.Assets.References;
@@ -25,7 +26,9 @@ internal sealed class ModelLoader
     private readonly AssetCache? _cache;
     private readonly FileReferenceResolver _references;
     private readonly MaterialLoader _materials;
-    private readonly Dictionary<string, MeshContents> _meshes = [];
+    
+    // By full paths, with and without instances.
+    private readonly Dictionary<(string Path, bool KeepsInstances), MeshContents> _meshes = [];
 
     // By full paths, and by the names in the scene: to find a file costs more than a line of the scene.
     private readonly Dictionary<string, Model> _models = [];
@@ -144,10 +147,34 @@ internal sealed class ModelLoader
         return model;
     }
 
-    private MeshModel LoadMesh(string fullPath, string displayName)
+    private Model LoadMesh(string fullPath, string displayName)
     {
-        var contents = ReadMesh(fullPath, displayName);
-        return new(contents.Mesh) { SourcePath = fullPath, FileBytes = contents.ByteCount, Materials = contents.Materials };
+        var contents = ReadMesh(fullPath, displayName, keepsInstances: MeshReader.HasInstances(fullPath));
+        var parsed = contents.Parsed;
+        if (parsed.Instances.IsEmpty)
+        {
+            return new MeshModel(parsed.Mesh)
+            {
+                SourcePath = fullPath,
+                FileBytes = contents.ByteCount,
+                Materials = contents.Materials,
+                Surroundings = parsed.Surroundings,
+            };
+        }
+
+        // What stands once is one mesh. No file has any of these alone.
+        IEnumerable<(Mesh Mesh, string Name, TransformationSet Places)> parts = parsed.Mesh.FaceCount == 0
+            ? parsed.Instances : parsed.Instances.Prepend((parsed.Mesh, "others", TransformationSet.Of(Transformation.Identity)));
+        return new FractalModel(Fractal.Sum(parts.Select(part => new Fractal(new([part.Places]), part.Mesh)
+        {
+            BaseMeshPath = $"{fullPath}#{part.Name}",
+        })))
+        {
+            SourcePath = fullPath,
+            FileBytes = contents.ByteCount,
+            Materials = contents.Materials,
+            Surroundings = parsed.Surroundings,
+        };
     }
 
     private FractalModel LoadFractal(string fullPath, string displayName)
@@ -182,6 +209,7 @@ internal sealed class ModelLoader
                 : materials[fractal.BaseMeshes.MaxBy(static mesh => mesh.FaceCount)!],
             MaterialsByMesh = fractal.HasSeveralMeshes ? [.. fractal.BaseMeshes.Select(mesh => materials[mesh])] : [],
             Gradient = parsed.Gradient,
+            Surroundings = parsed.Handedness is { } handedness ? new() { Handedness = handedness } : null,
             NumberNames = [.. parsed.NumberNames.Concat(bases.SelectMany(static one => one.NumberNames)).Distinct()],
         };
     }
@@ -236,7 +264,7 @@ internal sealed class ModelLoader
         if (FileKinds.FromName(path) != FileKind.Fractal)
         {
             var contents = ReadMesh(path, displayName);
-            return new(path, new(new([]), contents.Mesh) { BaseMeshPath = path }, [contents.Materials], contents.ByteCount, []);
+            return new(path, new(new([]), contents.Parsed.Mesh) { BaseMeshPath = path }, [contents.Materials], contents.ByteCount, []);
         }
 
         if (_innerFractals.TryGetValue(path, out var known))
@@ -328,9 +356,9 @@ internal sealed class ModelLoader
             : throw parsed.Source.Error(parsed.ResultOffset, boundsFault, isLimitExceeded: !description.IsInfinite);
     }
 
-    private MeshContents ReadMesh(string fullPath, string displayName)
+    private MeshContents ReadMesh(string fullPath, string displayName, bool keepsInstances = false)
     {
-        if (_options.ShareModels && _meshes.TryGetValue(fullPath, out var cached))
+        if (_options.ShareModels && _meshes.TryGetValue((fullPath, keepsInstances), out var cached))
         {
             Record.AddRange(cached.Files);
             return cached;
@@ -338,16 +366,16 @@ internal sealed class ModelLoader
 
         var filesBefore = Record.Position;
         var bytesBefore = StorageBytes;
-        var parsed = ReadOrFindMesh(fullPath, displayName);
+        var parsed = ReadOrFindMesh(fullPath, displayName, keepsInstances);
         _textBytes += parsed.ByteCount;
         Warnings.AddRange(parsed.Warnings);
-        if (parsed.Mesh.FaceCount == 0)
+        if (parsed.Mesh.FaceCount == 0 && parsed.Instances.IsEmpty)
         {
             Warnings.Add(new(displayName, 1, 1, DiagnosticSeverity.Warning, "the file has no faces, so nothing of it is drawn"));
         }
 
         var materials = parsed.Materials is { } own ? _materials.WithUsableImages(own, displayName) : _materials.Load(parsed, fullPath);
-        return _meshes[fullPath] = new(parsed.Mesh, materials, StorageBytes - bytesBefore, Record.Since(filesBefore));
+        return _meshes[(fullPath, keepsInstances)] = new(parsed, materials, StorageBytes - bytesBefore, Record.Since(filesBefore));
     }
 
     private ParsedFractal ReadOrFindFractal(string fullPath, string displayName)
@@ -363,17 +391,17 @@ internal sealed class ModelLoader
             FractalParser.Parse(ReadText(fullPath, displayName, ParsingLimits.DescriptionBytes.Value), Values);
     }
 
-    private ParsedObj ReadOrFindMesh(string fullPath, string displayName)
+    private ParsedObj ReadOrFindMesh(string fullPath, string displayName, bool keepsInstances)
     {
         var stamp = Record.Add(fullPath);
-        // What a .gltf names may change without it.
-        return fullPath.EndsWith(".gltf", StringComparison.OrdinalIgnoreCase)
+        // What a .gltf names may change without it, and a .glb is another thing with its instances.
+        return keepsInstances || fullPath.EndsWith(".gltf", StringComparison.OrdinalIgnoreCase)
             ? Read() : AssetCache.ReadOrFind(_cache, fullPath, stamp, Read);
 
         ParsedObj Read()
         {
             var progress = _progress is null ? null : new FileProgress(displayName, _progress);
-            var parsed = MeshReader.Read(fullPath, displayName, progress, _references);
+            var parsed = MeshReader.Read(fullPath, displayName, progress, _references, keepsInstances);
             _cache?.ReadCount += 1;
             return parsed;
         }
@@ -409,7 +437,7 @@ internal sealed class ModelLoader
     }
 
     private sealed record MeshContents(
-        Mesh Mesh, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);
+        ParsedObj Parsed, ImmutableDictionary<string, Material> Materials, long ByteCount, ImmutableDictionary<string, FileStamp> Files);
 
     private sealed class FileProgress(string file, IProgress<LoadProgress> progress) : IProgress<double>
     {

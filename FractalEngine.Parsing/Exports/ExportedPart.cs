@@ -16,12 +16,9 @@ public sealed record ExportedPart(PlacedModel Placed, int ObjectIndex, int MeshI
     /// <summary>The mesh that stands at all places.</summary>
     public Mesh Mesh => Placed.Model.Mesh;
 
-    /// <summary>Whether maps mix colours into those of the mesh.</summary>
-    public bool HasTints => Placed.Model is FractalModel { Fractal.HasColours: true };
-
     /// <summary>Whether something says a colour of the mesh, so that it is more than one of those that tell objects apart.</summary>
     public bool HasColour =>
-        HasTints || Placed.Declaration.Colour is not null || !Placed.Model.Materials.IsEmpty || !Mesh.Colours.IsEmpty;
+        Placed.HasTints || Placed.Declaration.Colour is not null || !Placed.Model.Materials.IsEmpty || !Mesh.Colours.IsEmpty;
 
     /// <summary>Index by which objects without a colour are told apart, see <see cref="ObjectPalette"/>.</summary>
     public int PaletteIndex => ObjectIndex + MeshIndex;
@@ -37,7 +34,7 @@ public sealed record ExportedPart(PlacedModel Placed, int ObjectIndex, int MeshI
     /// <param name="materials">Those of the scene; null where they are not written.</param>
     /// <param name="group">Name of the material in the mesh; empty for none.</param>
     /// <param name="tint">What maps mix into the colour of the instance.</param>
-    public string MaterialOf(SceneMaterials? materials, string group, Tint tint) => (HasTints
+    public string MaterialOf(SceneMaterials? materials, string group, Tint tint) => (Placed.HasTints
         ? materials?.NameOf(Placed, PaletteIndex, group, tint)
         : materials?.NameOf(Placed, group)) ?? "";
 

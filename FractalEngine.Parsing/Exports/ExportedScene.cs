@@ -5,6 +5,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Parsing.Exports;
 
@@ -53,26 +54,18 @@ public sealed class ExportedScene
         return new(scene, settings, frame, hasPaths);
     }
 
-    /// <summary>Tells what a format loses that has no more than colours, a sentence each.</summary>
-    /// <param name="scene">The scene.</param>
-    /// <param name="hasColours">Whether the format has colours.</param>
-    /// <param name="hasTextures">Whether it has textures.</param>
-    public static ImmutableArray<string> LossesOf(LoadedScene scene, bool hasColours, bool hasTextures = false)
+    /// <summary>Tells that a format without textures loses those of a scene, in a sentence.</summary>
+    public static ImmutableArray<string> LossesOf(LoadedScene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
-        var materials = scene.Models.SelectMany(static model => model.Parts).SelectMany(static part => part.Materials.Values).ToArray();
-        return
-        [
-            .. !hasTextures && materials.Any(static material => material.IsTextured) ? (string[])["textures are not written"] : [],
-            .. hasColours && scene.Objects.Any(static placed => placed.Gradient is not null)
-                ? (string[])["gradients of fractals are not written"] : [],
-        ];
+        return scene.Models.SelectMany(static model => model.Parts).SelectMany(static part => part.Materials.Values)
+            .Any(static material => material.IsTextured) ? ["textures are not written"] : [];
     }
 
     private ExportedPart List(PlacedModel placed, int objectIndex, int meshIndex, AffineMap frame)
     {
         var (instances, count) = placed.Model is FractalModel { Fractal: var fractal }
-            ? Enumerate(placed.Model.Name, fractal)
+            ? Enumerate(placed, fractal)
             : ([new MeshInstance(meshIndex, AffineMap.Identity, Tint.None)], 1);
         return Create(placed, objectIndex, meshIndex, frame, count, instances);
     }
@@ -84,19 +77,37 @@ public sealed class ExportedScene
         return new(placed, objectIndex, meshIndex, count, instances.Select(instance => instance with { Map = toFile * instance.Map }));
     }
 
-    private (IEnumerable<MeshInstance> Instances, long Count) Enumerate(string name, Fractal fractal)
+    private (IEnumerable<MeshInstance> Instances, long Count) Enumerate(PlacedModel placed, Fractal fractal)
     {
         try
         {
-            return fractal.Enumerate(_settings.MaxFaces / Math.Max(1, fractal.BaseMesh.FaceCount), _hasPaths);
+            var (instances, count) = fractal.Enumerate(
+                _settings.MaxFaces / Math.Max(1, fractal.BaseMesh.FaceCount), _hasPaths || placed.ShownGradient is not null);
+            return (Graded(placed, instances), count);
         }
         catch (FractalLimitException exception)
         {
             throw new FractalLimitException(string.Create(
                 CultureInfo.InvariantCulture,
-                $"{name} has more faces than the limit of {_settings.MaxFaces}: "
+                $"{placed.Model.Name} has more faces than the limit of {_settings.MaxFaces}: "
                 + $"its base has {fractal.BaseMesh.FaceCount}, and {exception.Message}"), exception);
         }
+    }
+
+    /// <summary>Mixes the colours of a gradient into instances whose paths are known; those of what has no levels are not.</summary>
+    private static IEnumerable<MeshInstance> Graded(PlacedModel placed, IEnumerable<MeshInstance> instances)
+    {
+        if (placed is not { ShownGradient: { } gradient, Model: FractalModel { Fractal: var fractal } }
+            || instances.FirstOrDefault().Path is null)
+        {
+            return instances;
+        }
+
+        var shading = new InstanceGradient(gradient, LodHierarchy.Build(fractal));
+        return instances.Select(instance => instance with { Tint = instance.Tint.Then(TintOf(shading.ShadeOf(instance.Path?.ToArray()))) });
+
+        Tint TintOf(GradientShade shade) => gradient.Palette is not null ? new(shade.Colour, 0)
+            : new(shade.Factor * gradient.EndColour.ToLinearVector(), 1 - shade.Factor);
     }
 
     private static ImmutableArray<ExportedPart> ListLargest(LoadedScene scene, AffineMap frame, long count)
@@ -109,14 +120,14 @@ public sealed class ExportedScene
             throw new FractalEngineException("the largest instances of what is composed componentwise are not known");
         }
 
+        var found = InstanceEnumeration.ListLargest(fractals, count).ToLookup(static one => one.Fractal, static one => one.Instance);
         // A model of one mesh may have others without faces, which then count as that one.
-        var found = InstanceEnumeration.ListLargest(fractals, count).ToLookup(
-            one => (one.Fractal, scene.Objects[one.Fractal].Model.Parts.Length == 1 ? 0 : one.Instance.MeshIndex),
-            static one => one.Instance);
+        var byMesh = scene.Objects.Select((placed, index) => Graded(placed, found[index])
+            .ToLookup(one => placed.Model.Parts.Length == 1 ? 0 : one.MeshIndex)).ToArray();
         return
         [
             .. scene.Objects.SelectMany((placed, index) => placed.Parts.Select(
-                (part, mesh) => Create(part, index, mesh, frame, found[(index, mesh)].Count(), found[(index, mesh)]))),
+                (part, mesh) => Create(part, index, mesh, frame, byMesh[index][mesh].Count(), byMesh[index][mesh]))),
         ];
     }
 }

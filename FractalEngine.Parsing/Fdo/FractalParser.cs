@@ -1,6 +1,7 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Sdo;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Parsing.Text.Grammar;
@@ -16,6 +17,7 @@ public sealed class FractalParser : RecursiveParser
     private (Composition Composition, int Offset)? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private (Gradient Gradient, int Offset)? _gradient;
+    private (Handedness Handedness, int Offset)? _handedness;
     private bool _hasDeclaration;
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
@@ -85,6 +87,7 @@ public sealed class FractalParser : RecursiveParser
         return new(Source, description, ImmutableArray.CreateRange(meshes, mesh => Bases.References[mesh]), result.Offset)
         {
             Gradient = _gradient?.Gradient,
+            Handedness = _handedness?.Handedness,
             NumberNames = NumberNames,
             Warnings = Hints,
         };
@@ -104,6 +107,7 @@ public sealed class FractalParser : RecursiveParser
             || ParseResult(cursor, out rest)
             || ParseComposition(cursor, out rest)
             || ParseGradient(cursor, out rest)
+            || ParseHandedness(cursor, out rest)
             || ParseSeed(cursor, out rest)
             || ParseValueDeclaration(cursor, out rest)
             || ParseMatrix(cursor, out rest)
@@ -121,11 +125,7 @@ public sealed class FractalParser : RecursiveParser
             return false;
         }
 
-        if (_composition is { } first)
-        {
-            throw Error(cursor, $"the composition is declared twice, first in line {Source.LineOf(first.Offset)}");
-        }
-
+        RequireOnce(cursor, "composition", _composition?.Offset);
         _composition = (composition, cursor.Offset);
         return true;
     }
@@ -139,13 +139,31 @@ public sealed class FractalParser : RecursiveParser
             return false;
         }
 
-        if (_gradient is { } first)
-        {
-            throw Error(cursor, $"the gradient is declared twice, first in line {Source.LineOf(first.Offset)}");
-        }
-
+        RequireOnce(cursor, "gradient", _gradient?.Offset);
         _gradient = (GradientParser.ParseIn(Source, kind, out rest), cursor.Offset);
         return true;
+    }
+
+    /// <summary>Parses <c>handed left</c> or <c>handed right</c>, as scenes have it.</summary>
+    private bool ParseHandedness(Cursor cursor, out Cursor rest)
+    {
+        if (!ParseWord(cursor, "handed", out rest) || !ParseBlanks(rest, out var word) || word.Offset == rest.Offset
+            || !(ParseWord(word, "left", out rest) || ParseWord(word, "right", out rest)))
+        {
+            return false;
+        }
+
+        RequireOnce(cursor, "handedness", _handedness?.Offset);
+        _handedness = (word.Current == 'l' ? Handedness.Left : Handedness.Right, cursor.Offset);
+        return true;
+    }
+
+    private void RequireOnce(Cursor cursor, string what, int? firstOffset)
+    {
+        if (firstOffset is { } first)
+        {
+            throw Error(cursor, $"the {what} is declared twice, first in line {Source.LineOf(first)}");
+        }
     }
 
     private bool ParseCompositionName(Cursor cursor, out Composition composition, out Cursor rest)
@@ -174,11 +192,7 @@ public sealed class FractalParser : RecursiveParser
             return false;
         }
 
-        if (_result is { } first)
-        {
-            throw Error(cursor, $"the result '<$>' is declared twice, first in line {Source.LineOf(first.Offset)}");
-        }
-
+        RequireOnce(cursor, "result '<$>'", _result?.Offset);
         RequireLimit(value.Steps.LevelCount, FractalLimits.Levels.Value, "the fractal", "levels", cursor);
         var digits = FractalSteps.EstimateDigits(value.Steps.Take(value.Steps.Count));
         RequireLimit(digits, FractalLimits.Digits.Value, "the number of instances", "digits", cursor);

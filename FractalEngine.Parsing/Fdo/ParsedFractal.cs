@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Fdo;
@@ -22,6 +23,9 @@ public sealed record ParsedFractal(
 
     /// <summary>How its instances differ in colour where no scene says otherwise; null for not at all.</summary>
     public Gradient? Gradient { get; init; }
+
+    /// <summary>How the coordinates are shown where the fractal is opened alone; null for as in the paper.</summary>
+    public Handedness? Handedness { get; init; }
 
     /// <summary>Names of the numbers that the file declares, in their order.</summary>
     public ImmutableArray<string> NumberNames { get; init; } = [];

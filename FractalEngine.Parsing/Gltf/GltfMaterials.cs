@@ -14,6 +14,10 @@ internal sealed class GltfMaterials(string path)
     private readonly Dictionary<int, (Material Material, MaterialChannel? Texture)> _materials = [];
     private readonly Dictionary<int, MaterialTexture> _images = [];
 
+    /// <summary>Those that were converted, by their names.</summary>
+    public IReadOnlyDictionary<string, Material> ByName =>
+        _materials.Values.ToDictionary(static one => one.Material.Name, static one => one.Material);
+
     /// <summary>Converts a material. Its name is unique: those that are not are followed by a number.</summary>
     /// <returns>The material, and the channel whose coordinates its texture takes; null where it has none.</returns>
     public (Material Material, MaterialChannel? Texture) Convert(SharpGLTF.Schema2.Material source)

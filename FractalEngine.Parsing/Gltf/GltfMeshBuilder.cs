@@ -1,19 +1,15 @@
 using System.Numerics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
-using FractalEngine.Parsing.Meshes;
-using FractalEngine.Parsing.Text;
 using SharpGLTF.Schema2;
-using Material = FractalEngine.Core.Geometry.Material;
 using Mesh = FractalEngine.Core.Geometry.Mesh;
 using Vector = FractalEngine.Core.Maths.Vector;
 
 namespace FractalEngine.Parsing.Gltf;
 
 /// <summary>Puts the triangles of placed glTF meshes together: a group for each primitive.</summary>
-/// <param name="fileName">Name of the file in messages.</param>
 /// <param name="materials">Converts the materials.</param>
-internal sealed class GltfMeshBuilder(string fileName, GltfMaterials materials)
+internal sealed class GltfMeshBuilder(GltfMaterials materials)
 {
     private readonly List<double> _positions = [];
     private readonly List<double> _normals = [];
@@ -23,54 +19,38 @@ internal sealed class GltfMeshBuilder(string fileName, GltfMaterials materials)
     private readonly List<int> _normalIndices = [];
     private readonly List<int> _coordinateIndices = [];
     private readonly List<MeshGroup> _groups = [];
-    private readonly Dictionary<string, Material> _materials = [];
-    private long _cornerCount;
-    private int _otherCount;
+
+    /// <summary>Number of primitives that are points or lines.</summary>
+    public int OtherCount { get; private set; }
 
     /// <summary>Adds a mesh at a place.</summary>
     /// <param name="mesh">The mesh, of which points and lines are only counted.</param>
     /// <param name="name">Name of the object.</param>
     /// <param name="toWorld">Its place. Faces of mirrored ones are turned round, so that they show the same side.</param>
-    /// <exception cref="SourceException">There are more corners than the limit.</exception>
     public void Add(SharpGLTF.Schema2.Mesh mesh, string name, AffineMap toWorld)
     {
         foreach (var primitive in mesh.Primitives)
         {
             if (primitive.DrawPrimitiveType < PrimitiveType.TRIANGLES)
             {
-                _otherCount++;
+                OtherCount++;
             }
             else if (primitive.GetVertexAccessor("POSITION") is { } positions)
             {
-                _cornerCount += Math.Max(positions.Count, primitive.IndexAccessor?.Count ?? 0);
-                if (_cornerCount > ParsingLimits.GltfCorners.Value)
-                {
-                    throw LimitError(fileName);
-                }
-
                 AddPrimitive(primitive, positions, name, mesh.Name ?? "", toWorld);
             }
         }
     }
 
     /// <summary>Returns the mesh with all that was added.</summary>
-    public ParsedObj Complete()
+    public Mesh Complete()
     {
         var mesh = new Mesh([.. _positions], [.. _vertexIndices]);
         mesh = _colours.Count == 0 ? mesh : mesh.WithColours([.. _colours]);
         mesh = _coordinates.Count == 0 ? mesh : mesh.WithTextureCoordinates([.. _coordinates], [.. _coordinateIndices]);
         mesh = _normals.Count == 0 ? mesh : mesh.WithNormals([.. _normals], [.. _normalIndices]);
-        return new(mesh.WithGroups([.. _groups], []), _otherCount == 0 ? [] : [new(
-            fileName, 1, 1, DiagnosticSeverity.Warning,
-            FormattableString.Invariant($"points and lines are not shown: {_otherCount} primitives are left out"))])
-        {
-            Materials = _materials,
-        };
+        return mesh.WithGroups([.. _groups], []);
     }
-
-    /// <summary>Creates the error of a file with too many corners.</summary>
-    public static SourceException LimitError(string fileName) => new(
-        fileName, $"the meshes of the file have more than the limit of {ParsingLimits.GltfCorners.Value} corners", true);
 
     private void AddPrimitive(MeshPrimitive primitive, Accessor positions, string objectName, string meshName, AffineMap toWorld)
     {
@@ -105,10 +85,6 @@ internal sealed class GltfMeshBuilder(string fileName, GltfMaterials materials)
         if (faceCount > 0)
         {
             _groups.Add(new(firstFace, faceCount, objectName, meshName, material?.Name ?? "", 0));
-            if (material is not null)
-            {
-                _materials[material.Name] = material;
-            }
         }
     }
 

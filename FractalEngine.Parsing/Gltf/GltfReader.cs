@@ -1,16 +1,18 @@
 using System.Text.Json;
+using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 using SharpGLTF.Schema2;
-using SharpGLTF.Transforms;
 using SharpGLTF.Validation;
+using Mesh = SharpGLTF.Schema2.Mesh;
 
 namespace FractalEngine.Parsing.Gltf;
 
 /// <summary>
 /// Reads the triangles of glTF 2.0 files, <c>.glb</c> and <c>.gltf</c>, with their materials and images: the nodes of the default scene
-/// as one mesh, in their rest pose.
+/// in their rest pose, as one mesh or as instances of meshes, with camera and lights.
 /// </summary>
 /// <remarks>
 /// Memory: the file, its images as they are, and three times the arrays of the mesh. Skins, and required extensions that change what
@@ -27,18 +29,22 @@ public static class GltfReader
         "KHR_materials_anisotropy", "KHR_materials_iridescence", "KHR_materials_dispersion", "KHR_materials_diffuse_transmission",
     ];
 
-    /// <summary>Reads a file as one mesh.</summary>
+    /// <summary>Reads a file as one mesh, or as instances of its meshes.</summary>
     /// <param name="path">Path of the file.</param>
     /// <param name="fileName">Name of the file in messages, and before the numbers of its images.</param>
     /// <param name="readOther">Reads another file that the file names: its bytes. It may throw a <see cref="SourceException"/>.</param>
+    /// <param name="keepsInstances">
+    /// Whether meshes that stand at several places are kept once, see <see cref="ParsedObj.Instances"/>, or all is one mesh.
+    /// </param>
     /// <exception cref="SourceException">The file can't be read, or holds what is not read.</exception>
-    public static ParsedObj Read(string path, string fileName, Func<string, byte[]> readOther)
+    public static ParsedObj Read(
+        string path, string fileName, Func<string, byte[]> readOther, bool keepsInstances = false)
     {
         ArgumentNullException.ThrowIfNull(readOther);
         var bytes = MeshBytes.Read(path, fileName);
         try
         {
-            return Read(bytes, path, fileName, readOther);
+            return Read(bytes, path, fileName, readOther, keepsInstances);
         }
         catch (Exception fault) when (fault.GetBaseException() is SourceException inner)
         {
@@ -52,64 +58,67 @@ public static class GltfReader
         }
     }
 
-    private static ParsedObj Read(MeshBytes bytes, string path, string fileName, Func<string, byte[]> readOther)
+    private static ParsedObj Read(MeshBytes bytes, string path, string fileName, Func<string, byte[]> readOther, bool keepsInstances)
     {
         var context = ReadContext.Create(name => new ArraySegment<byte>(readOther(name)));
         context.Validation = ValidationMode.Skip;
         CheckContents(ReadContext.ReadJsonBytes(Open()), fileName);
-        var root = context.ReadSchema2(Open());
-        var mesh = new GltfMeshBuilder(fileName, new(path));
-        IEnumerable<Node> roots = root.DefaultScene is { } scene ? scene.VisualChildren
-            : root.LogicalNodes.Where(static node => node.VisualParent is null);
-        var open = new Stack<(Node Node, AffineMap ToWorld)>(roots.Reverse().Select(static node => (node, AffineMap.Identity)));
-        var closed = new HashSet<int>();
-        while (open.TryPop(out var item))
+        var nodes = GltfNodes.List(context.ReadSchema2(Open()));
+        if (nodes.Find(static one => one.Node.Skin is not null).Node is { } skinned)
         {
-            if (!closed.Add(item.Node.LogicalIndex))
-            {
-                throw new InvalidDataException($"the node '{item.Node.Name}' has two parents");
-            }
+            throw new SourceException(fileName, $"the node '{skinned.Name}' has a skin, and skins are not read");
+        }
 
-            var toWorld = item.ToWorld * ToMap(new Matrix4x4Double(item.Node.LocalMatrix));
-            if (item.Node.Skin is not null)
-            {
-                throw new SourceException(fileName, $"the node '{item.Node.Name}' has a skin, and skins are not read");
-            }
+        var (materials, cornerCount) = (new GltfMaterials(path), 0L);
+        var rest = new GltfMeshBuilder(materials);
+        var instanced = keepsInstances ? GltfNodes.ChooseInstanced(nodes).ToDictionary(
+            static mesh => mesh, _ => (Mesh: new GltfMeshBuilder(materials), Places: new List<(AffineMap Map, MapColour Colour)>())) : [];
+        foreach (var (mesh, one) in instanced)
+        {
+            Add(one.Mesh, mesh, mesh.Name ?? "", AffineMap.Identity);
+        }
 
-            if (item.Node.Mesh is { } shown)
+        foreach (var (node, toWorld) in nodes.Where(static one => one.Node.Mesh is not null))
+        {
+            var places = instanced.GetValueOrDefault(node.Mesh).Places;
+            foreach (var place in GltfNodes.PlacesOf(node, toWorld))
             {
-                foreach (var place in PlacesOf(item.Node, toWorld))
+                if (places is not null && GltfNodes.HasInverse(place.Map))
                 {
-                    mesh.Add(shown, item.Node.Name ?? "", place);
+                    places.Add(place);
+                    continue;
                 }
-            }
 
-            foreach (var child in item.Node.VisualChildren.Reverse())
-            {
-                open.Push((child, toWorld));
+                Add(rest, node.Mesh, node.Name ?? "", place.Map);
             }
         }
 
-        return mesh.Complete() with { ByteCount = bytes.Length };
+        var otherCount = rest.OtherCount + instanced.Values.Sum(static one => one.Mesh.OtherCount);
+        var result = new ParsedObj(rest.Complete(), otherCount == 0 ? [] : [new(
+            fileName, 1, 1, DiagnosticSeverity.Warning,
+            FormattableString.Invariant($"points and lines are not shown: {otherCount} primitives are left out"))])
+        {
+            Instances = [.. instanced.Select(static one => (one.Value.Mesh.Complete(), one.Key.Name ?? "", ToSet(one.Value.Places)))],
+            Materials = materials.ByName,
+            ByteCount = bytes.Length,
+        };
+        var bounds = result.Instances.Aggregate(result.Mesh.UsedBounds, static (box, one) => one.Places.Maps.Aggregate(
+            box, (box, place) => BoundingBox.Union(box, one.Mesh.UsedBounds.Transform(place))));
+        return result with { Surroundings = GltfSurroundings.Find(nodes, bounds) };
 
         MemoryStream Open() => new(bytes.Buffer, 0, bytes.Length, writable: false);
-    }
 
-    private static IEnumerable<AffineMap> PlacesOf(Node node, AffineMap toWorld)
-    {
-        if (node.GetExtension<MeshGpuInstancing>() is not { } instancing)
+        void Add(GltfMeshBuilder builder, Mesh mesh, string name, AffineMap place)
         {
-            return [toWorld];
+            cornerCount += GltfNodes.CornerCount(mesh);
+            if (cornerCount > ParsingLimits.GltfCorners.Value)
+            {
+                throw LimitError(fileName);
+            }
+
+            builder.Add(mesh, name, place);
         }
-
-        return Enumerable.Range(0, instancing.Count).Select(
-            index => toWorld * ToMap(new Matrix4x4Double(instancing.GetLocalMatrix(index))));
     }
-
-    /// <summary>The map of a matrix whose rows are the images of the axes and of the origin.</summary>
-    private static AffineMap ToMap(Matrix4x4Double matrix) => new(
-        new(new(matrix.M11, matrix.M12, matrix.M13), new(matrix.M21, matrix.M22, matrix.M23), new(matrix.M31, matrix.M32, matrix.M33)),
-        new(matrix.M41, matrix.M42, matrix.M43));
 
     /// <summary>Refuses what is not read, and numbers beyond the limit, before anything is made of the file.</summary>
     private static void CheckContents(ReadOnlyMemory<byte> json, string fileName)
@@ -125,7 +134,7 @@ public static class GltfReader
             && accessors.EnumerateArray().Sum(static accessor => accessor.GetProperty("count").GetInt64())
                 > ParsingLimits.GltfCorners.Value)
         {
-            throw GltfMeshBuilder.LimitError(fileName);
+            throw LimitError(fileName);
         }
 
         if (document.RootElement.TryGetProperty("extensionsRequired", out var required) && required.ValueKind == JsonValueKind.Array
@@ -135,4 +144,10 @@ public static class GltfReader
             throw new SourceException(fileName, $"the file requires the extension {unknown}, which is not read");
         }
     }
+
+    private static TransformationSet ToSet(List<(AffineMap Map, MapColour Colour)> places) =>
+        new([.. places.Select(static place => place.Map)], [.. places.Select(static place => place.Colour)]);
+
+    private static SourceException LimitError(string fileName) => new(
+        fileName, $"the meshes of the file have more than the limit of {ParsingLimits.GltfCorners.Value} corners", true);
 }

@@ -1,6 +1,8 @@
 using System.Collections.Immutable;
 using System.Collections.ObjectModel;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Text;
 
 namespace FractalEngine.Parsing.Meshes;
@@ -21,6 +23,15 @@ public sealed record ParsedObj(Mesh Mesh, ImmutableArray<Diagnostic> Warnings)
 
     /// <summary>The materials of the file itself; null where they are those of other files.</summary>
     public IReadOnlyDictionary<string, Material>? Materials { get; init; }
+
+    /// <summary>
+    /// Meshes that stand at several places, beside <see cref="Mesh"/>, each with its name in the file and with its places; empty where the
+    /// format has none, or all is one mesh.
+    /// </summary>
+    public ImmutableArray<(Mesh Mesh, string Name, TransformationSet Places)> Instances { get; init; } = [];
+
+    /// <summary>Camera and lights of the file, in a scene without objects; null for none.</summary>
+    public Scene? Surroundings { get; init; }
 
     /// <summary>Size of the file that was read, in bytes; 0 for a text that comes from no file.</summary>
     public long ByteCount { get; init; }

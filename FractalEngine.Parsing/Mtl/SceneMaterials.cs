@@ -52,7 +52,7 @@ public sealed class SceneMaterials
         var hasColours = false;
         foreach (var placed in scene.Objects.SelectMany(static placed => placed.Parts))
         {
-            if (placed.Model is FractalModel { Fractal.HasColours: true })
+            if (placed.HasTints)
             {
                 hasColours = true;
                 continue;

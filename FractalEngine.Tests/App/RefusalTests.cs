@@ -84,6 +84,7 @@ public sealed class RefusalTests : IDisposable
     [InlineData("query cube.obj --points r.txt --json --header", "--header names the columns of lines, and has no effect with --json")]
     [InlineData("query cube.obj --rays r.txt --json --header", "--header names the columns of lines, and has no effect with --json")]
     [InlineData("info cube.obj --composition affine", "cube.obj has no fractal, so --composition has no effect")]
+    [InlineData("info drop.sdo --from-up z", "drop.sdo is a scene: --from-handed, --from-up and --from-unit are for a mesh or fractal")]
     [InlineData("simulate drop.sdo --composition affine", "drop.sdo has no fractal, so --composition has no effect")]
     [InlineData("export cube.obj -o a.obj --depth 3", "cube.obj has no recursive fractal, so --depth has no effect")]
     [InlineData("simulate drop.sdo --seconds 1 --every 61", "--every 61 is beyond the 60 steps, so nothing would be written")]

@@ -39,11 +39,11 @@ public class SurfaceSummaryTests
     });
 
     [Fact]
-    public void Of_MapsThatStretch_HasAVolumeAndNoArea()
+    public void Of_MapsThatStretch_HasTheAreaOfItsExpansion()
     {
         var fractal = Samples.Repeated(2, new Transformation(Vector.I, Vector.Zero, new(0.5, 0.25, 0.5)), Samples.Move(3, 0, 0));
         var summary = SurfaceSummary.Of(RenderScenes.Scene(new(), (new FractalModel(fractal), Transformation.Identity, null)));
-        Assert.Null(summary.Area);
+        Near.Equal(fractal.Flatten(100).SurfaceArea(), summary.Area!.Value, 1e-12);
         Near.Equal(Math.Pow(1 + (1.0 / 16), 2), summary.Volume!.Value, 1e-12);
     }
 

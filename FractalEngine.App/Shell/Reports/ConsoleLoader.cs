@@ -1,4 +1,5 @@
 using FractalEngine.Core;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
@@ -32,6 +33,11 @@ internal static class ConsoleLoader
             && !file.Scene.Models.Any(static model => model is FractalModel { Fractal.Description.HasChance: true }))
         {
             throw new UsageException($"nothing in {path} is by chance, so --seed has no effect");
+        }
+
+        if (file.Kind == FileKind.Scene && (options.Handedness is not null || options.Placement != Transformation.Identity))
+        {
+            throw new UsageException($"{path} is a scene: --from-handed, --from-up and --from-unit are for a mesh or fractal");
         }
 
         var numbers = file.Scene.Models.OfType<FractalModel>().SelectMany(static model => model.NumberNames);

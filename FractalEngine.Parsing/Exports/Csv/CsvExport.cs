@@ -31,13 +31,13 @@ public sealed class CsvExport : SceneExport
             var mesh = BodyCsvWriter.Quote(scene.Objects[part.ObjectIndex].Model.MeshNameAt(part.MeshIndex));
             foreach (var instance in part.Instances)
             {
-                var (x, y, z) = (instance.Map.Linear.V1, instance.Map.Linear.V2, instance.Map.Linear.V3);
-                var to = instance.Map.Translation;
                 var colour = part.ColourOf(part.Groups is [var first, ..] ? first.Material : "", instance.Tint);
                 writer.Write($"{name},{instance.Path},{mesh},");
-                writer.Write(string.Create(CultureInfo.InvariantCulture, $"{x.X:R},{y.X:R},{z.X:R},{to.X:R},"));
-                writer.Write(string.Create(CultureInfo.InvariantCulture, $"{x.Y:R},{y.Y:R},{z.Y:R},{to.Y:R},"));
-                writer.Write(string.Create(CultureInfo.InvariantCulture, $"{x.Z:R},{y.Z:R},{z.Z:R},{to.Z:R},"));
+                foreach (var number in TransformRows.Of(instance.Map))
+                {
+                    writer.Write(string.Create(CultureInfo.InvariantCulture, $"{number:R},"));
+                }
+
                 writer.Write(string.Create(CultureInfo.InvariantCulture, $"{colour.Red:R},{colour.Green:R},{colour.Blue:R}\n"));
             }
         }

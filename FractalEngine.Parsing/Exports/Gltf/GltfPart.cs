@@ -25,7 +25,7 @@ internal sealed class GltfPart
 
     private readonly GltfDocument _document;
     private readonly ExportedPart _part;
-    private readonly (int Material, GltfVertices Vertices, MaterialTexture? Texture)[] _groups;
+    private readonly Group[] _groups;
 
     /// <summary>Prepares the mesh, with normals as they are drawn.</summary>
     public GltfPart(GltfDocument document, GltfSurfaces surfaces, ExportedPart part)
@@ -37,8 +37,11 @@ internal sealed class GltfPart
         {
             var material = part.Placed.Model.Materials.GetValueOrDefault(group.Material) ?? new("colour");
             // Where maps mix colours, these are those of instances.
-            material = material with { Diffuse = part.HasTints ? Colour.White : part.ColourOf(group.Material, Tint.None) };
-            return (surfaces.Add(material), new GltfVertices(mesh, group), material.Texture ?? material.NormalTexture);
+            material = material with { Diffuse = part.Placed.HasTints ? Colour.White : part.ColourOf(group.Material, Tint.None) };
+            var vertices = new ExportedCorners(mesh, hasSurface: true);
+            return new Group(
+                surfaces.Add(material), vertices, vertices.Add(group.FirstFace, group.FaceCount),
+                material.Texture ?? material.NormalTexture, group.Material);
         })];
     }
 
@@ -69,7 +72,8 @@ internal sealed class GltfPart
         var skewed = counts[(int)Kind.Skewed];
         if (skewed > 0 && _groups.Length > 0)
         {
-            var mesh = AddMesh([.. _groups.Select(group => AddSkewed(group.Vertices, group.Material, group.Texture, skewed))]);
+            var places = _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed);
+            var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(group, places, skewed, _part.Placed.HasTints))]);
             _document.AddNode(new() { ["name"] = _part.ObjectName, ["mesh"] = mesh });
         }
 
@@ -79,8 +83,7 @@ internal sealed class GltfPart
     private void AddInstances(Kind kind, long count)
     {
         var mirror = kind == Kind.Mirrored ? MirrorZ : Matrix.Identity;
-        var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(
-            group.Vertices, group.Material, group.Texture, [new(0, new(mirror, Vector.Zero), Tint.None)], 1))]);
+        var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(group, [new(0, new(mirror, Vector.Zero), Tint.None)], 1))]);
         var node = new JsonObject { ["name"] = _part.ObjectName, ["mesh"] = mesh };
         var maps = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind)
             .Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
@@ -98,7 +101,7 @@ internal sealed class GltfPart
             }),
             ["SCALE"] = AddVectors(maps, count, static instance => ScaleOf(instance.Map.Linear)),
         };
-        if (_part.HasTints)
+        if (_part.Placed.HasTints)
         {
             var group = _part.Groups.First(static group => group.FaceCount > 0).Material;
             attributes["_COLOR_0"] = AddVectors(maps, count, instance => _part.ColourOf(group, instance.Tint).ToLinearVector());
@@ -112,18 +115,15 @@ internal sealed class GltfPart
     private int AddMesh(JsonNode[] primitives) =>
         _document.Add("meshes", new() { ["name"] = _part.ObjectName, ["primitives"] = new JsonArray(primitives) });
 
-    private JsonObject AddSkewed(GltfVertices vertices, int material, MaterialTexture? texture, long count) => AddPrimitive(
-        vertices, material, texture, _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed), count);
-
     /// <summary>Adds the faces of a group at some places, as one primitive.</summary>
-    private JsonObject AddPrimitive(
-        GltfVertices vertices, int material, MaterialTexture? texture, IEnumerable<MeshInstance> places, long count)
+    private JsonObject AddPrimitive(Group group, IEnumerable<MeshInstance> places, long count, bool isTinted = false)
     {
-        var total = count * vertices.Count;
+        var vertices = group.Vertices;
+        var total = count * vertices.All.Count;
         var (minimum, maximum) = (float.PositiveInfinity * Vector.One, float.NegativeInfinity * Vector.One);
         foreach (var place in places)
         {
-            for (var i = 0; i < vertices.Count; i++)
+            for (var i = 0; i < vertices.All.Count; i++)
             {
                 var (x, y, z) = place.Map * vertices.PositionAt(i);
                 var position = new Vector((float)x, (float)y, (float)z);
@@ -138,58 +138,59 @@ internal sealed class GltfPart
         {
             ["POSITION"] = positions,
             ["NORMAL"] = AddVertices(
-                "VEC3", places, total, vertices, static (place, vertices, i) => NormalOf(place.Map, vertices.NormalAt(i))),
+                "VEC3", places, total, vertices, static (place, vertices, i) => NormalOf(place.Map, vertices.All[i].Normal)),
         };
-        if (vertices.HasCoordinates && texture is { Scale: var scale, Offset: var offset })
+        if (vertices.HasCoordinates && group.Texture is { Scale: var scale, Offset: var offset })
         {
             // glTF has v downwards.
             attributes["TEXCOORD_0"] = AddVertices("VEC2", places, total, vertices, (_, vertices, i) =>
             {
-                var (u, v) = vertices.CoordinateAt(i);
-                return new((u * scale.U) + offset.U, 1 - ((v * scale.V) + offset.V), 0);
+                return new((vertices.All[i].U * scale.U) + offset.U, 1 - ((vertices.All[i].V * scale.V) + offset.V), 0);
             });
         }
 
-        if (vertices.HasColours)
+        if (vertices.HasColours || isTinted)
         {
-            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, static (_, vertices, i) => vertices.ColourAt(i));
+            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, (place, vertices, i) =>
+                (vertices.HasColours ? vertices.ColourAt(i).ToLinearVector() : Vector.One).Stretch(
+                isTinted ? _part.ColourOf(group.Name, place.Tint).ToLinearVector() : Vector.One));
         }
 
         return new JsonObject
         {
             ["attributes"] = attributes,
-            ["material"] = material,
+            ["material"] = group.Material,
             ["indices"] = _document.AddNumbers(
-                "SCALAR", count * vertices.Indices.Length, writer => WriteIndices(writer, vertices, places), IndexTarget),
+                "SCALAR", count * group.Indices.Length, writer => WriteIndices(writer, group, places), IndexTarget),
         };
     }
 
-    private static void WriteIndices(LittleEndianWriter writer, GltfVertices vertices, IEnumerable<MeshInstance> places)
+    private static void WriteIndices(LittleEndianWriter writer, Group group, IEnumerable<MeshInstance> places)
     {
         var first = 0u;
         foreach (var place in places)
         {
             // A mirror turns faces inside out; exchanging two corners turns them back.
             var (second, third) = place.Map.Linear.Determinant() < 0 ? (2, 1) : (1, 2);
-            for (var i = 0; i < vertices.Indices.Length; i += 3)
+            for (var i = 0; i < group.Indices.Length; i += 3)
             {
-                writer.WriteUInt32(first + vertices.Indices[i]);
-                writer.WriteUInt32(first + vertices.Indices[i + second]);
-                writer.WriteUInt32(first + vertices.Indices[i + third]);
+                writer.WriteUInt32(first + (uint)group.Indices[i]);
+                writer.WriteUInt32(first + (uint)group.Indices[i + second]);
+                writer.WriteUInt32(first + (uint)group.Indices[i + third]);
             }
 
-            first += (uint)vertices.Count;
+            first += (uint)group.Vertices.All.Count;
         }
     }
 
     private int AddVertices(
-        string type, IEnumerable<MeshInstance> places, long total, GltfVertices vertices,
-        Func<MeshInstance, GltfVertices, int, Vector> vectorOf) =>
+        string type, IEnumerable<MeshInstance> places, long total, ExportedCorners vertices,
+        Func<MeshInstance, ExportedCorners, int, Vector> vectorOf) =>
         _document.AddNumbers(type, total, writer =>
         {
             foreach (var place in places)
             {
-                for (var i = 0; i < vertices.Count; i++)
+                for (var i = 0; i < vertices.All.Count; i++)
                 {
                     Write(writer, vectorOf(place, vertices, i), type);
                 }
@@ -242,4 +243,12 @@ internal sealed class GltfPart
         var mapped = (map.Linear.Determinant() < 0 ? -1 : 1) * (map.Linear.Cofactors() * normal);
         return mapped.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? mapped.UnitVector() : Vector.J;
     }
+
+    /// <summary>Faces of one material.</summary>
+    /// <param name="Material">Index of the material in the file.</param>
+    /// <param name="Vertices">Their corners, each different one once.</param>
+    /// <param name="Indices">The corners of the faces, [faces × 3].</param>
+    /// <param name="Texture">The texture whose place the coordinates have; null for none.</param>
+    /// <param name="Name">Name of the material in the mesh.</param>
+    private sealed record Group(int Material, ExportedCorners Vertices, int[] Indices, MaterialTexture? Texture, string Name);
 }

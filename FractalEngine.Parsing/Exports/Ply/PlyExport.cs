@@ -43,7 +43,7 @@ public sealed class PlyExport : SceneExport
         }
 
         writer.Flush();
-        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene, hasColours: true) };
+        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene) };
     }
 
     private static void WriteVertices(ExportedPart part, PlyVertices vertices, bool hasColours, LittleEndianWriter writer)
@@ -78,7 +78,7 @@ public sealed class PlyExport : SceneExport
             var (second, third) = instance.Map.Linear.Determinant() < 0 ? (2, 1) : (1, 2);
             for (var i = 0; i < indices.Length; i += 3)
             {
-                writer.WriteTriangle(first + indices[i], first + indices[i + second], first + indices[i + third]);
+                writer.WriteTriangle(first + (uint)indices[i], first + (uint)indices[i + second], first + (uint)indices[i + third]);
             }
 
             first += (uint)vertices.Positions.Length;

@@ -8,33 +8,22 @@ namespace FractalEngine.Parsing.Exports.Ply;
 internal sealed class PlyVertices
 {
     private readonly ExportedPart _part;
-    private readonly (int Vertex, int Group)[] _sources;
+    private readonly ExportedCorners _corners;
 
     /// <summary>Finds the vertices that faces of a mesh use.</summary>
     public PlyVertices(ExportedPart part)
     {
         _part = part;
-        Indices = new uint[part.Mesh.VertexIndices.Length];
-        var numbers = new Dictionary<(int Vertex, int Group), uint>();
-        foreach (var (index, group) in part.Groups.Index())
-        {
-            for (var i = 3 * group.FirstFace; i < 3 * (group.FirstFace + group.FaceCount); i++)
-            {
-                var source = (part.Mesh.VertexIndices[i], index);
-                numbers.TryAdd(source, (uint)numbers.Count);
-                Indices[i] = numbers[source];
-            }
-        }
-
-        _sources = [.. numbers.OrderBy(static pair => pair.Value).Select(static pair => pair.Key)];
-        Positions = Array.ConvertAll(_sources, source => part.Mesh.Vertex(source.Vertex));
+        _corners = new(part.Mesh, hasSurface: false);
+        Indices = [.. part.Groups.SelectMany((group, index) => _corners.Add(group.FirstFace, group.FaceCount, index))];
+        Positions = [.. Enumerable.Range(0, _corners.All.Count).Select(_corners.PositionAt)];
     }
 
     /// <summary>The positions in the mesh.</summary>
     public Vector[] Positions { get; }
 
     /// <summary>The vertices of the faces, [faces × 3].</summary>
-    public uint[] Indices { get; }
+    public int[] Indices { get; }
 
     /// <summary>Computes the colours of an instance, a byte each for red, green and blue.</summary>
     /// <param name="tint">What maps mix into its colour.</param>
@@ -42,15 +31,13 @@ internal sealed class PlyVertices
     public void Fill(Tint tint, Span<byte> colours)
     {
         var ofGroups = _part.Groups.Select(group => _part.ColourOf(group.Material, tint)).ToArray();
-        for (var i = 0; i < _sources.Length; i++)
+        for (var i = 0; i < Positions.Length; i++)
         {
-            var (vertex, group) = _sources[i];
-            var colour = ofGroups[group];
-            if (!_part.Mesh.Colours.IsEmpty)
+            var colour = ofGroups[_corners.All[i].Batch];
+            if (_corners.HasColours)
             {
                 // As light, as they are drawn.
-                var own = _part.Mesh.Colours.AsSpan(3 * vertex, 3);
-                var (red, green, blue) = new Colour(own[0], own[1], own[2]).ToLinear();
+                var (red, green, blue) = _corners.ColourAt(i).ToLinear();
                 var (tintRed, tintGreen, tintBlue) = colour.ToLinear();
                 colour = new Colour(red * tintRed, green * tintGreen, blue * tintBlue).FromLinear();
             }

@@ -34,7 +34,7 @@ public sealed class StlExport : SceneExport
         }
 
         writer.Flush();
-        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene, hasColours: false) };
+        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene) };
     }
 
     private static void WritePart(ExportedPart part, LittleEndianWriter writer)

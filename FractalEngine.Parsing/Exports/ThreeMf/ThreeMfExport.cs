@@ -38,7 +38,7 @@ public sealed class ThreeMfExport : SceneExport
         ArgumentNullException.ThrowIfNull(settings);
         ArgumentNullException.ThrowIfNull(stream);
         var isFlat = settings.IsFlat || settings.MaxInstances is not null;
-        var losesTints = !isFlat && scene.Models.Any(static model => model is FractalModel { Fractal.HasColours: true });
+        var losesTints = !isFlat && scene.Objects.Any(static placed => placed.HasTints);
         var frame = ExportFrame.Printing.From(scene, settings);
         var model = new ThreeMfModel(isFlat ? JoinedScene.Of(scene, settings, isWelded: false) : scene, frame);
         using (var archive = new ZipArchive(stream, ZipArchiveMode.Create, leaveOpen: true))
@@ -62,8 +62,8 @@ public sealed class ThreeMfExport : SceneExport
         {
             Losses =
             [
-                .. losesTints ? (string[])["colours of maps are written with --flat only"] : [],
-                .. ExportedScene.LossesOf(scene, hasColours: true),
+                .. losesTints ? (string[])["colours of maps and gradients are written with --flat only"] : [],
+                .. ExportedScene.LossesOf(scene),
             ],
         };
     }

@@ -32,7 +32,7 @@ internal sealed class WebLevels
             starts.Add(_values.Count / 12);
             foreach (var map in set.Maps)
             {
-                Add(map);
+                _values.AddRange(TransformRows.Of(map));
             }
         }
 
@@ -57,14 +57,6 @@ internal sealed class WebLevels
     public int Count => _levels.Levels.Length;
 
     private void Add(Vector v) => _values.AddRange([v.X, v.Y, v.Z]);
-
-    private void Add(AffineMap map)
-    {
-        var (linear, t) = map;
-        _values.AddRange([linear.V1.X, linear.V2.X, linear.V3.X, t.X]);
-        _values.AddRange([linear.V1.Y, linear.V2.Y, linear.V3.Y, t.Y]);
-        _values.AddRange([linear.V1.Z, linear.V2.Z, linear.V3.Z, t.Z]);
-    }
 
     /// <summary>Adds the colours of maps, and returns for each map that has one its number.</summary>
     private Dictionary<(int Set, int Map), int> AddTints()

@@ -16,26 +16,18 @@ internal sealed class WebMesh
     private const int Steps = 65535;
 
     private readonly Mesh _mesh;
-    private readonly Mesh _normals;
-    private readonly Dictionary<(int Position, Vector Normal, double U, double V), int> _vertices = [];
-    private readonly List<(int Position, Vector Normal, double U, double V)> _order = [];
+    private readonly ExportedCorners _corners;
 
     /// <summary>Sorts the faces of a model by its materials, and joins the corners of faces that have all in common.</summary>
     public WebMesh(Model model)
     {
         _mesh = model.Mesh;
-        _normals = NormalGenerator.Complete(_mesh, NormalGenerator.DefaultCreaseAngle);
-        var faces = Enumerable.Range(0, _mesh.FaceCount).Select(face => (Face: face, Material: (string?)null));
-        if (!model.Materials.IsEmpty && !_mesh.Groups.IsEmpty)
+        _corners = new(NormalGenerator.Complete(_mesh, NormalGenerator.DefaultCreaseAngle), hasSurface: true);
+        IReadOnlyList<MeshGroup> groups = !model.Materials.IsEmpty && !_mesh.Groups.IsEmpty
+            ? _mesh.Groups : [new(0, _mesh.FaceCount, "", "", "", 0)];
+        foreach (var group in groups.GroupBy(group => model.Materials.GetValueOrDefault(group.Material)))
         {
-            faces = _mesh.Groups.SelectMany(group => Enumerable.Range(group.FirstFace, group.FaceCount).Select(
-                face => (face, (string?)(model.Materials.ContainsKey(group.Material) ? group.Material : null))));
-        }
-
-        foreach (var group in faces.GroupBy(static one => one.Material))
-        {
-            int[] indices = [.. group.SelectMany(one => Enumerable.Range(3 * one.Face, 3)).Select(VertexAt)];
-            Batches.Add((group.Key is { } name ? model.Materials[name] : null, indices));
+            Batches.Add((group.Key, [.. group.SelectMany(one => _corners.Add(one.FirstFace, one.FaceCount))]));
         }
     }
 
@@ -49,25 +41,26 @@ internal sealed class WebMesh
     {
         var box = _mesh.UsedBounds.IsEmpty ? new(Vector.Zero, Vector.Zero) : _mesh.UsedBounds;
         var scale = (1.0 / Steps) * box.Size;
+        var all = _corners.All;
         json.WriteStartObject();
         json.WriteBoolean("isClosed", ClosedSurface.IsSolid(_mesh));
         WriteNumbers(json, "box", [.. Components(box.Minimum), .. Components(scale)]);
-        WriteDifferences(json, "positions", 3, _order.SelectMany(vertex => Components(
-            Quantised(_mesh.Vertex(vertex.Position) - box.Minimum, scale))));
-        WriteDifferences(json, "normals", 3, _order.SelectMany(static vertex => Components(127 * vertex.Normal)));
-        if (_mesh.TextureIndices.Length > 0)
+        WriteDifferences(json, "positions", 3, all.SelectMany(corner => Components(
+            Quantised(_mesh.Vertex(corner.Vertex) - box.Minimum, scale))));
+        WriteDifferences(json, "normals", 3, all.SelectMany(static corner => Components(127 * corner.Normal)));
+        if (_corners.HasCoordinates)
         {
-            var u = (From: _order.Min(static one => one.U), To: _order.Max(static one => one.U));
-            var v = (From: _order.Min(static one => one.V), To: _order.Max(static one => one.V));
+            var u = (From: all.Min(static one => one.U), To: all.Max(static one => one.U));
+            var v = (From: all.Min(static one => one.V), To: all.Max(static one => one.V));
             WriteNumbers(json, "textureBox", [u.From, v.From, (u.To - u.From) / Steps, (v.To - v.From) / Steps]);
-            WriteDifferences(json, "texture", 2, _order.SelectMany(
+            WriteDifferences(json, "texture", 2, all.SelectMany(
                 one => new[] { Part(one.U - u.From, (u.To - u.From) / Steps), Part(one.V - v.From, (v.To - v.From) / Steps) }));
         }
 
         if (!_mesh.Colours.IsEmpty)
         {
-            WriteDifferences(json, "colours", 3, _order.SelectMany(
-                vertex => _mesh.Colours.AsSpan(3 * vertex.Position, 3).ToArray().Select(static one => 255 * Math.Clamp(one, 0, 1))));
+            WriteDifferences(json, "colours", 3, all.SelectMany(
+                corner => _mesh.Colours.AsSpan(3 * corner.Vertex, 3).ToArray().Select(static one => 255 * Math.Clamp(one, 0, 1))));
         }
 
         json.WriteStartArray("batches");
@@ -116,23 +109,4 @@ internal sealed class WebMesh
         new(Part(offset.X, scale.X), Part(offset.Y, scale.Y), Part(offset.Z, scale.Z));
 
     private static double Part(double offset, double step) => step > 0 ? offset / step : 0;
-
-    private int VertexAt(int corner)
-    {
-        var (a, b, c) = _mesh.Face(corner / 3);
-        var index = _normals.NormalIndices[corner];
-        var normal = index < 0 ? Vector.Zero
-            : new Vector(_normals.Normals[3 * index], _normals.Normals[(3 * index) + 1], _normals.Normals[(3 * index) + 2]).UnitVector();
-        // The winding decides which side is lit, as in drawn images.
-        normal = Vector.Dot(normal, Vector.Cross(b - a, c - a)) < 0 ? -normal : normal;
-        var texture = _mesh.TextureIndices.Length > 0 ? _mesh.TextureIndices[corner] : -1;
-        var key = (_mesh.VertexIndices[corner], normal,
-            texture < 0 ? 0 : _mesh.TextureCoordinates[2 * texture], texture < 0 ? 0 : _mesh.TextureCoordinates[(2 * texture) + 1]);
-        if (_vertices.TryAdd(key, _order.Count))
-        {
-            _order.Add(key);
-        }
-
-        return _vertices[key];
-    }
 }

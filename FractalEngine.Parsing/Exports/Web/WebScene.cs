@@ -175,16 +175,11 @@ internal sealed class WebScene
         json.WriteStartArray("objects");
         foreach (var (index, placed) in _objects.Index())
         {
-            var (linear, origin) = placed.ObjectToWorld;
             json.WriteStartObject();
             json.WriteNumber("model", _models.IndexOf(placed.Model));
-            WebMesh.WriteNumbers(json, "map",
-            [
-                linear.V1.X, linear.V2.X, linear.V3.X, origin.X,
-                linear.V1.Y, linear.V2.Y, linear.V3.Y, origin.Y,
-                linear.V1.Z, linear.V2.Z, linear.V3.Z, origin.Z,
-            ]);
-            var turnsOver = linear.Determinant() < 0 || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
+            WebMesh.WriteNumbers(json, "map", TransformRows.Of(placed.ObjectToWorld));
+            var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0
+                || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
             json.WriteBoolean("isMirrored", turnsOver);
             WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
             var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;

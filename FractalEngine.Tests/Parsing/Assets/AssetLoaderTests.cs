@@ -1,5 +1,6 @@
 using System.IO.Compression;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
@@ -25,6 +26,28 @@ public sealed class AssetLoaderTests : IDisposable
         Assert.Equal((FileKind.Mesh, Triangle.Length), (loaded.Kind, loaded.StorageBytes));
         Assert.IsType<MeshModel>(Assert.Single(loaded.Scene.Objects).Model);
         Assert.Equal(1, loaded.Scene.Objects[0].Model.FaceCount);
+    }
+
+    [Fact]
+    public void Load_OfAMeshInOtherCoordinates_PlacesItAndShowsItAsAsked()
+    {
+        // One millimetre along z, which is up there.
+        _folder.Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 2 1\nf 1 2 3\n");
+        var scene = AssetLoader.Load(_folder["a.obj"], new()
+        {
+            Handedness = Handedness.Left, Placement = new(Vector.Zero, new(90, 0, 0), 0.001 * Vector.One),
+        }).Scene;
+        Assert.Equal(Handedness.Left, scene.Scene.Handedness);
+        Assert.Equal((new(0, 0, -0.002), new Vector(0.001, 0.001, 0)), (scene.Bounds.Minimum, scene.Bounds.Maximum));
+    }
+
+    [Fact]
+    public void Load_OfAFractalThatSaysItsHandedness_IsShownSoUnlessASceneShowsIt()
+    {
+        _folder.Write("a.fdo", "<$>. box\nhanded right\n");
+        Assert.Equal(Handedness.Right, AssetLoader.Load(_folder["a.fdo"]).Scene.Scene.Handedness);
+        Assert.Equal(Handedness.Left, AssetLoader.Load(_folder["a.fdo"], new() { Handedness = Handedness.Left }).Scene.Scene.Handedness);
+        Assert.Equal(Handedness.Left, AssetLoader.Load(_folder.Write("s.sdo", "o \"a.fdo\" #")).Scene.Scene.Handedness);
     }
 
     [Fact]

@@ -8,6 +8,7 @@ using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports;
 using FractalEngine.Parsing.Exports.Gltf;
+using FractalEngine.Parsing.Exports.Ply;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Parsing.Exports;
@@ -98,9 +99,10 @@ public sealed class GltfExportTests : IDisposable
             c (0, 0, -5) # 60
             light directional (0, -1, 0) (1, 0.5, 0.5) 2
             light point (1, 2, 3) (1, 1, 1) 1 10
+            light ambient (1, 1, 1) 0.5
             o "box.fdo" ((0, 0, 1), #, #) colour (0.5, 1, 1)
             """);
-        Assert.Empty(Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses);
+        Assert.Equal(["light from all around is not written"], Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses.ToArray());
         var json = Json();
         var material = json.GetProperty("materials")[0];
         var surface = material.GetProperty("pbrMetallicRoughness");
@@ -111,7 +113,7 @@ public sealed class GltfExportTests : IDisposable
         Assert.Equal([1.0, 0, 0], material.GetProperty("emissiveFactor").EnumerateArray().Select(static one => one.GetDouble()));
         Assert.Equal(3, material.GetProperty("extensions").GetProperty("KHR_materials_emissive_strength").GetProperty("emissiveStrength")
             .GetDouble());
-        var model = (MeshModel)AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model;
+        var model = AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model;
         Assert.Equal(File.ReadAllBytes(_folder["crate.png"]), model.Materials["Tiles"].Texture!.Contents);
         var nodes = json.GetProperty("nodes").EnumerateArray().Where(static node => node.TryGetProperty("matrix", out _)).Select(
             static node => node.GetProperty("matrix").EnumerateArray().Select(static one => one.GetDouble()).ToArray()).ToList();
@@ -123,6 +125,71 @@ public sealed class GltfExportTests : IDisposable
         Near.Equal(2 * Math.PI, lights[0].GetProperty("intensity").GetDouble(), 1e-12);
         // A tenth of the range of 10 is 1, where the light brings π.
         Near.Equal(Math.PI, lights[1].GetProperty("intensity").GetDouble(), 1e-12);
+    }
+
+    [Fact]
+    public void Gradients_InFilesWithColours_AreThoseOfEachInstance()
+    {
+        File.WriteAllText(_folder["f.fdo"], "up.p. (p, #, #)\nx. [#, up.(0, 3, 0)] box\n<$>. x\n");
+        File.WriteAllText(_folder["s.sdo"], "o \"f.fdo\" # colour (1, 1, 1) gradient height (1, 0, 0)");
+        var scene = AssetLoader.Load(_folder["s.sdo"]).Scene;
+        Assert.Empty(Export(scene).Losses);
+        var fractal = ((FractalModel)AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model).Fractal;
+        var set = (Core.Fractals.Descriptions.TransformationSet)fractal.Description.Steps[0];
+        // Centres of boxes of height 1 are at an eighth of a height of 4, and at seven eighths: so much red is in white, of linear light.
+        foreach (var (map, colour) in set.Maps.Zip(set.Colours))
+        {
+            var (red, green, blue) = colour.Colour.ToLinear();
+            var part = (map.Translation.Y + 0.5) / 4;
+            Near.Equal(new Vector(1, 1 - part, 1 - part), new(red, green, blue), 1e-6);
+        }
+
+        using var stream = new MemoryStream();
+        Assert.Empty(new PlyExport().Write(scene, new(), stream).Losses);
+        var bytes = stream.ToArray();
+        var start = Encoding.ASCII.GetString(bytes).IndexOf("end_header\n", StringComparison.Ordinal) + 11;
+        // Vertices of 27 bytes, eight of each box. The sRGB of 7/8 and of 1/8 is 0.943 and 0.389.
+        foreach (var vertex in Enumerable.Range(0, 16).Select(vertex => start + (27 * vertex)))
+        {
+            var other = BitConverter.ToDouble(bytes, vertex + 8) > 1 ? 99 : 240;
+            Assert.Equal((255, other, other), (bytes[vertex + 24], bytes[vertex + 25], bytes[vertex + 26]));
+        }
+    }
+
+    [Theory]
+    [InlineData("left")]
+    [InlineData("right")]
+    public void CameraAndLights_ReadBack_AreWhatWasOnTheScreen(string handed)
+    {
+        File.Copy(Repository.Full("assets/models/crate.obj"), _folder["crate.obj"]);
+        File.WriteAllText(_folder["s.sdo"], $"""
+            handed {handed}
+            c (3, 1, -5) (0.1, -0.4, 0.2) 47
+            light directional (1, -1, 2) (1, 0.5, 0.25) 2
+            light point (1, 2, 3) (0.3, 1, 1) 1.5 10
+            light spot (4, 5, 6) (0, -1, 0.5) 40 (1, 1, 0.2) 3 25
+            o "crate.obj" #
+            """);
+        var written = AssetLoader.Load(_folder["s.sdo"]).Scene.Scene;
+        Export(LoadedScene.Of(written));
+        var read = AssetLoader.Load(_folder["a.glb"], new() { IsStaged = true }).Scene.Scene;
+        var mirror = Matrix.Diagonal(new(1, 1, handed == "left" ? -1 : 1));
+        // Numbers of at most 25, in floats.
+        Near.Equal(mirror * written.Camera!.Position, read.Camera!.Position, 1e-6);
+        Near.Equal(mirror * written.Camera.LocalAxes, read.Camera.LocalAxes, 1e-6);
+        Near.Equal(1, read.Camera.FieldOfView / written.Camera.FieldOfView, 1e-6);
+        Assert.Equal(written.Lights.Select(static light => light.Kind), read.Lights.Select(static light => light.Kind));
+        foreach (var (expected, actual) in written.Lights.Zip(read.Lights, static (a, b) => (a.ToEmitter()!, b.ToEmitter()!)))
+        {
+            Near.Equal(mirror * (expected.Position ?? Vector.Zero), actual.Position ?? Vector.Zero, 1e-6);
+            Near.Equal(mirror * expected.Axis, actual.Axis, 1e-6);
+            Near.Equal(expected.Radiance, actual.Radiance, 1e-6);
+            Near.Equal(0, double.IsInfinity(expected.Range) ? 0 : expected.Range - actual.Range, 1e-6);
+            Near.Equal(1, actual.ConeAngle / expected.ConeAngle, 1e-6);
+        }
+
+        Assert.Null(read.Sky);
+        Assert.False(read.HasAutoExposure);
     }
 
     [Fact]

@@ -89,7 +89,9 @@ public class ThreeMfExportTests
         var scene = RenderScenes.Scene(
             new(), (new FractalModel(new Fractal(new([set]), Samples.Tetrahedron)), Transformation.Identity, Colour.White));
         using var stream = new MemoryStream();
-        Assert.Equal(["colours of maps are written with --flat only"], new ThreeMfExport().Write(scene, new(), stream).Losses.ToArray());
+        Assert.Equal(
+            ["colours of maps and gradients are written with --flat only"],
+            new ThreeMfExport().Write(scene, new(), stream).Losses.ToArray());
         var faces = ExportedFile.ReadThreeMf(ExportedFile.Write(new ThreeMfExport(), scene, new() { IsFlat = true }));
         Assert.Equal(["#0000FF", "#FFFFFF"], faces.Select(face => face.Colour).Distinct().Order());
     }

@@ -206,6 +206,13 @@ public class FractalParserErrorTests
         """);
 
     [Fact]
+    public void Handedness_DeclaredTwice_IsRefused() => Fails("handed left\nhanded right\n<$>. \"b.obj\"", """
+        test.fdo:2:1: error: the handedness is declared twice, first in line 1
+          handed right
+          ^
+        """);
+
+    [Fact]
     public void Composition_DeclaredTwice_IsRefused() => Fails("# a\ncomposition affine\ncomposition componentwise\n<$>. \"b.obj\"", """
         test.fdo:3:1: error: the composition is declared twice, first in line 2
           composition componentwise

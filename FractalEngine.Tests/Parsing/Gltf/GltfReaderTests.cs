@@ -4,6 +4,8 @@ using System.Text.Json.Nodes;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Mtl;
@@ -202,17 +204,133 @@ public sealed class GltfReaderTests : IDisposable
         Assert.True(Vector.Cross(b - a, c - a).Z > 0);
     }
 
+    private static void AddInstances(Document document, int node, int translations)
+    {
+        document.Root["extensionsUsed"] = JsonNode.Parse("""["EXT_mesh_gpu_instancing"]""");
+        document["nodes"][node]!["extensions"] = JsonNode.Parse(string.Create(
+            CultureInfo.InvariantCulture, $"{{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {{\"TRANSLATION\": {translations}}}}}}}"));
+    }
+
     [Fact]
     public void Instancing_PlacesAMeshOncePerInstance()
     {
         var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
         var translations = document.Add("VEC3", 5126, 3, 1, 0, 0, 2, 0, 0, 3, 0, 0);
-        document.Root["extensionsUsed"] = JsonNode.Parse("""["EXT_mesh_gpu_instancing"]""");
-        document["nodes"][0]!["extensions"] = JsonNode.Parse(string.Create(
-            CultureInfo.InvariantCulture, $"{{\"EXT_mesh_gpu_instancing\": {{\"attributes\": {{\"TRANSLATION\": {translations}}}}}}}"));
+        AddInstances(document, 0, translations);
         var mesh = Read(document.Embedded());
         Assert.Equal((12, 6), (mesh.VertexCount, mesh.FaceCount));
         Assert.Equal([1.0, 2, 3], new[] { 0, 4, 8 }.Select(vertex => mesh.Vertex(vertex).X));
+    }
+
+    /// <summary>A tree of nodes, instances by an extension, a flattened node and a mesh that stands once.</summary>
+    private string WriteInstances()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var positions = document.Add("VEC3", 5126, 3, 0, 0, 0, 3, 0, 0, 0, 2, 1);
+        document["materials"].Add(JsonNode.Parse("""{"name": "Red", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}"""));
+        document["meshes"].Add(JsonNode.Parse("""{"name": "sail", "primitives": [{"attributes": {}, "material": 0}]}"""));
+        document["meshes"][1]!["primitives"]![0]!["attributes"]!["POSITION"] = positions;
+        var translations = document.Add("VEC3", 5126, 3, 1, 0, 0, 2, 5, 0, 3, 0, -7);
+        document["nodes"].Clear();
+        document["nodes"].Add(JsonNode.Parse("""{"children": [1, 2, 3], "translation": [10, 0, 0], "scale": [2, 3, 2]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0, "rotation": [0.6, 0, 0, 0.8]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0, "matrix": [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,5,1]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0, "scale": [1, 0, 1]}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 1}"""));
+        document["nodes"].Add(JsonNode.Parse("""{"mesh": 0}"""));
+        AddInstances(document, 5, translations);
+        document.Root["scenes"] = JsonNode.Parse("""[{"nodes": [0, 4, 5]}]""");
+        document.Root["scene"] = 0;
+        return Write(document.Embedded());
+    }
+
+    [Fact]
+    public void Instances_OpenedAlone_AreStoredOnceAndShowTheFacesOfTheMesh()
+    {
+        var baked = MeshFile.Read(WriteInstances());
+        var file = AssetLoader.Load(_folder["a.gltf"], new() { IsStaged = true });
+        var model = Assert.IsType<FractalModel>(file.Scene.Objects[0].Model);
+        // The flattened place can't be a map, and is part of what stands once.
+        Assert.Equal([3, 2], model.Fractal.BaseMeshes.Select(static mesh => mesh.FaceCount));
+        Assert.Equal([1, 5], model.Parts.Select(static part => (int)part.InstanceCount!.Value));
+        Assert.Equal(("a.gltf#others", "a.gltf#quad"), (model.MeshNameAt(0), model.MeshNameAt(1)));
+        Assert.Equal("Red", Assert.Single(model.MaterialsAt(0)).Key);
+        Assert.Null(file.Scene.Objects[0].Gradient);
+        Assert.Equal((baked.FaceCount, baked.VertexCount), ((int)model.FaceCount!.Value, (int)model.VertexCount!.Value));
+        // Sums in another order, of numbers up to 20.
+        Near.Equal(baked.Bounds.Minimum, file.Scene.Bounds.Minimum, 1e-12);
+        Near.Equal(baked.Bounds.Maximum, file.Scene.Bounds.Maximum, 1e-12);
+        Near.Equal(baked.SurfaceArea(), SurfaceSummary.Of(file.Scene).Area!.Value, 1e-12);
+        var point = new Vector(13, 1, -7);
+        Near.Equal(
+            Core.Colliders.Collider.For(baked).FindClosest(point).Distance,
+            file.Scene.Objects[0].CreateCollider().FindClosest(point).Distance, 1e-12);
+    }
+
+    [Fact]
+    public void Instances_AsTheBaseOfAFractal_AreOneMesh()
+    {
+        var baked = MeshFile.Read(WriteInstances());
+        File.WriteAllText(_folder["a.fdo"], "x. \"a.gltf\"\nhanded right\n<$>. x\n");
+        File.WriteAllText(_folder["a.sdo"], "o \"a.fdo\" #\no \"a.gltf\" #\n");
+        var models = AssetLoader.Load(_folder["a.sdo"]).Scene.Models.ToArray();
+        Assert.Equal(baked.Positions.ToArray(), Assert.Single(((FractalModel)models[0]).Fractal.BaseMeshes).Positions);
+        Assert.Equal(2, ((FractalModel)models[1]).Fractal.BaseMeshes.Length);
+        Assert.Equal(models[0].FaceCount, models[1].FaceCount);
+    }
+
+    [Fact]
+    public void Instances_OfMoreThanAreDrawnByThemselves_AreOneMesh()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var translations = document.Add("VEC3", 5126, 3, [.. Enumerable.Range(0, 360_000).Select(static i => (double)i)]);
+        AddInstances(document, 0, translations);
+        File.WriteAllBytes(_folder["a.glb"], document.Binary());
+        Assert.Equal(240_000, Assert.IsType<MeshModel>(AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model).Mesh.FaceCount);
+    }
+
+    [Fact]
+    public void CameraAndLights_OpenedAlone_AreThoseOfTheScene()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        document.Root["cameras"] = JsonNode.Parse("""
+            [{"type": "orthographic", "orthographic": {"xmag": 3, "ymag": 2, "znear": 0.1, "zfar": 9}},
+             {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}]
+            """);
+        document.Root["extensionsUsed"] = JsonNode.Parse("""["KHR_lights_punctual"]""");
+        document.Root["extensions"] = JsonNode.Parse("""
+            {"KHR_lights_punctual": {"lights": [
+              {"type": "directional", "color": [1, 0.25, 0], "intensity": 6.2831853}, {"type": "point", "intensity": 100},
+              {"type": "spot", "intensity": 31.415927, "range": 20, "spot": {"outerConeAngle": 0.5}}]}}
+            """);
+        // A quarter turn about y takes −z to −x.
+        foreach (var node in (string[])[
+            """{"camera": 1, "translation": [4, 5, 6], "rotation": [0, 0.70710678118, 0, 0.70710678118]}""", """{"camera": 0}""",
+            """{"rotation": [0, 0.70710678118, 0, 0.70710678118], "extensions": {"KHR_lights_punctual": {"light": 0}}}""",
+            """{"translation": [1, 2, 3], "extensions": {"KHR_lights_punctual": {"light": 1}}}""",
+            """{"extensions": {"KHR_lights_punctual": {"light": 2}}}""", """{"scale": [0, 0, 0], "camera": 0}"""])
+        {
+            document["nodes"].Add(JsonNode.Parse(node));
+        }
+
+        var scene = AssetLoader.Load(Write(document.Embedded())).Scene.Scene;
+        var camera = scene.Camera!;
+        Assert.Equal((new(4, 5, 6), Handedness.Right, Projection.Perspective), (camera.Position, scene.Handedness, scene.Projection));
+        Near.Equal(new Matrix(-Vector.K, Vector.J, -Vector.I), camera.LocalAxes, 1e-7); // the quaternion is of floats
+        Near.Equal(180 / Math.PI, camera.FieldOfView, 1e-6);
+        var lights = scene.Lights.Select(static light => light.ToEmitter()!).ToArray();
+        Near.Equal(-Vector.I, lights[0].Axis, 1e-7);
+        Near.Equal(new Vector(2, 0.5, 0), lights[0].Radiance, 1e-6);
+        // 100 candela at a distance of 4 are 100/16 lux, and white is π; a large range weakens by less than a thousandth.
+        Near.Equal(100 / 16.0 / Math.PI, lights[1].Incoming(new(1, 2, -1), out _, out _).X, 1e-3);
+        Assert.Equal((20, false, true), (lights[2].Range, lights[1].HasCone, lights[2].HasCone));
+        Near.Equal(180 / Math.PI, lights[2].ConeAngle, 1e-5);
+        Near.Equal(10.0 / 9, lights[2].Incoming(new(0, 0, -3), out _, out _).X, 1e-2);
+        Assert.Empty(AssetLoader.Load(_folder["a.gltf"], new() { Placement = new(Vector.Zero, new(90, 0, 0), Vector.One) })
+            .Scene.Scene.Lights);
+        document["nodes"].RemoveAt(1);
+        scene = AssetLoader.Load(Write(document.Embedded())).Scene.Scene;
+        Assert.Equal((Projection.Orthographic, 4.0), (scene.Projection, scene.OrthographicHeight!.Value));
     }
 
     [Fact]
