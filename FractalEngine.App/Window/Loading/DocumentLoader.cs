@@ -41,8 +41,8 @@ internal sealed class DocumentLoader(
     /// <summary>The document shown; null until the first file is loaded.</summary>
     public Document? Document { get; private set; }
 
-    /// <summary>Whether files may refer to others outside their folder.</summary>
-    public bool AllowsOutsideFiles => options.Load.AllowOutsideFiles;
+    /// <summary>What overrides the files, such as whether they may refer to others outside their folder.</summary>
+    public LoadOptions Options => options.Load;
 
     /// <summary>The exit code of the first load.</summary>
     public int ExitCode { get; private set; }
