@@ -121,7 +121,8 @@ internal sealed class DocumentLoader(
             var request = State.Loading!;
             var shown = request.Continues ? Document : null;
             _load = new(
-                request, options.Load with { FilmTime = shown?.Film?.BeginLoad() }, settings(), area.Aspect, _cache, shown, window.Wake);
+                request, options.Load with { FilmTime = shown?.Film?.BeginLoad() }, settings(), area.Aspect, (window.Width, window.Height),
+                _cache, shown, window.Wake);
         }
 
         ShowTitle();

@@ -13,9 +13,9 @@ namespace FractalEngine.App.Window.Loading;
 /// <param name="wake">Lets the window look at the work once it has ended, from any thread.</param>
 internal abstract class WindowJob(string title, Action<string> report, Action wake) : IProgress<double>, IDisposable
 {
-    // Of the panel, pixels at scale 1, from the lower right corner of what other panels leave free.
+    // Of the panel, pixels at scale 1, from the lower right corner of what other panels leave free, above the texts there.
     private const double Right = 305;
-    private const double Height = 120;
+    private const double Height = 165;
 
     // Files that are written are taken away when the next part of them is.
     private static readonly TimeSpan StopTimeout = TimeSpan.FromSeconds(3);

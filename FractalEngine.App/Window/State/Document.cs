@@ -393,6 +393,11 @@ internal sealed class Document : IDisposable
         OrthographicHeight = FlyingCamera.OrthographicHeight,
     };
 
+    /// <summary>The scene with its bodies where they are, and the exposure that is drawn where the file leaves that open.</summary>
+    public LoadedScene LitScene => Physics.CurrentScene is { Scene: { HasAutoExposure: true } scene } current
+        ? current with { Scene = scene with { Exposure = Renderer.Scene.Source.Scene.Exposure, HasAutoExposure = false } }
+        : Physics.CurrentScene;
+
     /// <summary>
     /// Returns what is on the screen: bodies where they are, and the present view where that is not the file's. A fractal or mesh that was
     /// opened alone is without its stage, unless that is wanted.
