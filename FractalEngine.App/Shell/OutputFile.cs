@@ -11,7 +11,7 @@ internal static class OutputFile
     /// <param name="stop">Ends the work of a window, whose process signals end as always; none for a command, which they end.</param>
     /// <exception cref="IOException">The file can't be written.</exception>
     /// <exception cref="OperationCanceledException">A signal has arrived, or the work was stopped.</exception>
-    public static void Write(string path, Action<Stream> write, CancellationToken stop = default) => Poll(stop, poll =>
+    public static void Write(string path, Action<Stream> write, CancellationToken stop = default) => Poll(poll =>
     {
         if (path == StandardInput.Name)
         {
@@ -21,7 +21,7 @@ internal static class OutputFile
         }
 
         AtomicFile.Write(path, stream => write(new InterruptibleStream(stream, poll)));
-    });
+    }, stop);
 
     /// <summary>Creates or replaces two files that belong together, both or neither, see <see cref="AtomicFile.WritePair"/>.</summary>
     /// <param name="companion">Path of the file that the other one refers to.</param>
@@ -33,11 +33,11 @@ internal static class OutputFile
     /// <exception cref="OperationCanceledException">A signal has arrived, or the work was stopped.</exception>
     public static void WritePair(
         string companion, Action<Stream> writeCompanion, string path, Action<Stream> write, CancellationToken stop = default) =>
-        Poll(stop, poll => AtomicFile.WritePair(
+        Poll(poll => AtomicFile.WritePair(
             companion, stream => writeCompanion(new InterruptibleStream(stream, poll)),
-            path, stream => write(new InterruptibleStream(stream, poll))));
+            path, stream => write(new InterruptibleStream(stream, poll))), stop);
 
-    private static void Poll(CancellationToken stop, Action<Action> write)
+    private static void Poll(Action<Action> write, CancellationToken stop)
     {
         if (stop.CanBeCanceled)
         {

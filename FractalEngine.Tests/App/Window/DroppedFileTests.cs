@@ -1,7 +1,6 @@
 using FractalEngine.App.Window;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Exports.Gltf;
-using FractalEngine.Render;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
