@@ -34,7 +34,7 @@ public sealed class NullArgumentTests : IDisposable
         "CameraNavigation", "CameraZoom", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
         "EditedFileWriter", "ExactFractalCollider", "FileEdits", "FlyingCamera", "FractalAddress", "FractalBounds",
         "FractalComments", "FractalGenerator", "FractalNumber", "FractalPartList", "FractalSteps", "FractalWriter",
-        "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser", "NewFile",
+        "FrameRenderer", "HierarchyCollider", "ImageHeader", "LoadedScene", "LodHierarchy", "Matting", "MtlParser",
         "NewFractalFile", "NewSceneFile", "NormalGenerator", "ObjMeshWriter", "ObjSceneWriter", "PhysicsWorld", "PlacedModel",
         "PointsParser", "QueryStatistics", "RaysParser", "SceneDraft", "SceneEditor", "SceneFileMerge", "SceneFraming",
         "SceneMaterials", "SceneMerge", "SceneParser", "SceneWorld", "SceneWriter", "SimpleCollider",

@@ -1,5 +1,4 @@
 using FractalEngine.App.Shell;
-using FractalEngine.Core;
 using FractalEngine.Core.Files;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets.References;
@@ -65,8 +64,8 @@ internal sealed class ExportedMaterials
         ? $"1 material in {Name}"
         : FormattableString.Invariant($"{Materials.Count} materials in {Name}");
 
-    /// <summary>Says on stderr if loading the mesh would refuse textures, since they lie outside its folder.</summary>
-    public void WarnOfOutsideTextures()
+    /// <summary>Warns where loading the mesh would refuse textures, since they lie outside its folder.</summary>
+    public IEnumerable<string> FindOutsideTextures()
     {
         var folder = AssetFolder.ForFile(_fullPath);
         var outside = Materials.Textures.Where(texture => !folder.Contains(texture)).ToArray();
@@ -75,8 +74,7 @@ internal sealed class ExportedMaterials
             var which = outside.Length == 1
                 ? $"the texture {outside[0]} lies"
                 : FormattableString.Invariant($"{outside.Length} textures, {outside[0]} first, lie");
-            Console.Error.WriteLine(DisplayText.Escape(
-                $"{Path}: warning: {which} outside the folder of the mesh: load it with --allow-outside, or copy the images"));
+            yield return $"{Path}: warning: {which} outside the folder of the mesh: load it with --allow-outside, or copy the images";
         }
     }
 }

@@ -1,4 +1,5 @@
 using System.CommandLine;
+using FractalEngine.App.Jobs;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Scenes.Cameras;
@@ -9,6 +10,9 @@ namespace FractalEngine.App.Options;
 /// <summary>The options of <c>export</c> on how much is written, and in which coordinates.</summary>
 internal sealed class ExportOptions
 {
+    private readonly Option<bool> _noMaterials = SharedOptions.Flag(
+        "--no-materials", "Write no material file (.mtl) beside the mesh.");
+
     private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf, too.");
 
     private readonly Option<bool> _weld = SharedOptions.Flag(
@@ -30,9 +34,11 @@ internal sealed class ExportOptions
     private readonly Option<double?> _height = NumberOption.Positive(
         "--height", "Nmm", "Height of the whole in the file, instead of --unit.", unit: "mm");
 
-    public void AddTo(Command command) => SharedOptions.AddAll(command, _flat, _weld, _instances, _handed, _up, _unit, _height);
+    public void AddTo(Command command) =>
+        SharedOptions.AddAll(command, _noMaterials, _flat, _weld, _instances, _handed, _up, _unit, _height);
 
-    public bool IsWelded(ParseResult result) => result.GetValue(_weld);
+    /// <summary>Returns the export into a file.</summary>
+    public ExportJob JobOf(ParseResult result, string output) => new(output, !result.GetValue(_noMaterials), result.GetValue(_weld));
 
     /// <summary>Returns the settings of an export.</summary>
     /// <exception cref="UsageException">Two options contradict each other.</exception>

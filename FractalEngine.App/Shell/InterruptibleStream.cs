@@ -1,17 +1,17 @@
 namespace FractalEngine.App.Shell;
 
-/// <summary>Passes on what is written, until a signal has arrived.</summary>
+/// <summary>Passes on what is written, until that is interrupted.</summary>
 /// <param name="target">Receives the bytes; left open.</param>
-/// <param name="interruption">Polled before each write.</param>
-internal sealed class InterruptibleStream(Stream target, InterruptSignal interruption) : WriteOnlyStream
+/// <param name="throwIfInterrupted">Called before each write, and ends it by an <see cref="OperationCanceledException"/>.</param>
+internal sealed class InterruptibleStream(Stream target, Action throwIfInterrupted) : WriteOnlyStream
 {
     public override void Flush() => target.Flush();
 
     /// <inheritdoc/>
-    /// <exception cref="OperationCanceledException">A signal has arrived.</exception>
+    /// <exception cref="OperationCanceledException">It was interrupted.</exception>
     public override void Write(ReadOnlySpan<byte> buffer)
     {
-        interruption.ThrowIfRequested();
+        throwIfInterrupted();
         target.Write(buffer);
     }
 }

@@ -34,7 +34,6 @@ internal sealed class SceneWindow : IDisposable
     private readonly WindowTracing _tracing;
     private readonly ViewArea _area;
     private readonly DocumentLoader _loader;
-    private readonly WindowApproximation _search;
     private readonly PanelLayout _panels;
     private readonly WindowActions _actions;
     private readonly WindowInterface _interface;
@@ -62,11 +61,12 @@ internal sealed class SceneWindow : IDisposable
         _tracing = new(options, _window.Wake);
         var saver = new DocumentSaver(_loader, prompts, Report);
         var files = new FileCommands(_loader, saver, prompts, recent, Report, () => _isClosing = true);
-        _search = new(_loader, files, prompts, Report, _window.Wake);
+        var search = new WindowApproximation(_loader, files, prompts, Report, _window.Wake);
+        var export = new WindowExport(_loader, prompts, Report, _window.Wake);
         _panels = new(_window, options.SettingsPath, Report, ui => _interface!.Build(ui));
         _actions = new(
-            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, _search, options.Settings, () => _clock.Elapsed,
-            () => _redraw |= Redraw.Scene);
+            _window, _windowRenderer, _overlay, _tracing, _panels, _loader, files, saver, search, export, options.Settings,
+            () => _clock.Elapsed, () => _redraw |= Redraw.Scene);
         _interface = new(_actions);
         _events = new(_window, _frameRenderer, _actions, prompts);
         _tracing.IsEnabled = options.IsTraced ?? _panels.IsTraced;
@@ -85,6 +85,7 @@ internal sealed class SceneWindow : IDisposable
 
     public void Dispose()
     {
+        Array.ForEach([.. _actions.Jobs], static job => job.Dispose());
         _tracing.Dispose();
         _loader.Dispose();
         _frameRenderer.Dispose();
@@ -168,7 +169,7 @@ internal sealed class SceneWindow : IDisposable
             return TimeUntil(_lastAdvance + FrameTime);
         }
 
-        if (_loader.IsBusy)
+        if (_loader.IsBusy || _actions.Jobs.Any(static job => job.IsRunning))
         {
             return ProgressInterval;
         }
@@ -182,9 +183,8 @@ internal sealed class SceneWindow : IDisposable
     {
         var previousDocument = Document;
         // Messages ask for frames meanwhile.
-        var redraw = _search.Poll() | _loader.Poll();
+        var redraw = _actions.Jobs.Aggregate(_loader.Poll(), static (redraw, job) => redraw | job.Poll());
         _redraw |= redraw;
-        _overlay.SearchStatus = _search.Status;
         if (Document != previousDocument)
         {
             _windowRenderer.Reset();

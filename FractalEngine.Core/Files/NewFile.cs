@@ -15,30 +15,25 @@ public static class NewFile
             .Select(number => number == 1 ? $"{stem}{ending}" : FormattableString.Invariant($"{stem}-{number}{ending}")).First(isFree);
     }
 
-    /// <summary>Requires a path to have an ending.</summary>
-    /// <exception cref="IOException">It has another one.</exception>
-    public static void RequireEnding(string path, string kind, string ending)
+    /// <summary>Requires a path to have one of some endings, a folder that exists, and no file.</summary>
+    /// <param name="path">Full path of the file.</param>
+    /// <param name="kind">What it will be, with its article.</param>
+    /// <param name="endings">The endings, with their dots.</param>
+    /// <exception cref="IOException">It has not.</exception>
+    public static void Require(string path, string kind, params ReadOnlySpan<string> endings)
     {
-        if (!path.EndsWith(ending, StringComparison.OrdinalIgnoreCase))
+        ArgumentNullException.ThrowIfNull(path);
+        string[] possible = [.. endings];
+        if (!Array.Exists(possible, ending => path.EndsWith(ending, StringComparison.OrdinalIgnoreCase)))
         {
-            throw new IOException($"the name of a {kind} ends in {ending}");
+            throw new IOException($"the name of {kind} ends in {string.Join(", ", possible)}");
         }
-    }
 
-    /// <summary>Requires the folder of a path to exist.</summary>
-    /// <exception cref="IOException">It does not.</exception>
-    public static void RequireFolder(string path)
-    {
         if (!Directory.Exists(Path.GetDirectoryName(path)))
         {
             throw new IOException($"the folder {Path.GetDirectoryName(path)} does not exist");
         }
-    }
 
-    /// <summary>Requires a path to be free.</summary>
-    /// <exception cref="IOException">It is taken.</exception>
-    public static void RequireFree(string path)
-    {
         if (Path.Exists(path))
         {
             throw Taken(path);

@@ -19,9 +19,7 @@ public static class NewFractalFile
     /// <exception cref="IOException">A name is taken or has another ending, or a file can't be written.</exception>
     public static void Write(FractalTemplate template, string path)
     {
-        NewFile.RequireEnding(path, "fractal", Extension);
-        NewFile.RequireFolder(path);
-        NewFile.RequireFree(path);
+        NewFile.Require(path, "a fractal", Extension);
         NewFile.Write(path, template.ReadText());
     }
 }

@@ -26,9 +26,7 @@ public static class NewSceneFile
     /// </exception>
     public static void Write(LoadedFile file, Scene scene, string path, bool allowsOutsideFiles)
     {
-        NewFile.RequireEnding(path, "scene", Extension);
-        NewFile.RequireFree(path);
-        NewFile.RequireFolder(path);
+        NewFile.Require(path, "a scene", Extension);
         var relocated = Relocate(file, scene, path);
         var folder = AssetFolder.ForFile(path);
         if (!allowsOutsideFiles

@@ -27,6 +27,13 @@ public sealed record ExportSettings
 
     /// <summary>Height of the whole scene in the file, in its unit, which decides the length of a scene unit; null for none.</summary>
     public double? Height { get; init; }
+
     /// <summary>How the scene's files were loaded, for formats that load them again at other values of their numbers.</summary>
     public LoadOptions Load { get; init; } = new();
+
+    /// <summary>Told the written part of the file, from 0 to 1, where its format knows how much there will be; null for nobody.</summary>
+    public IProgress<double>? Progress { get; init; }
+
+    /// <summary>Ends the export between two instances.</summary>
+    public CancellationToken Cancellation { get; init; }
 }

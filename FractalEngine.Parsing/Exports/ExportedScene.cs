@@ -39,7 +39,7 @@ public sealed class ExportedScene
     public long FaceCount { get; }
 
     /// <summary>Number of faces for the line that a command ends with.</summary>
-    public string Contents => FaceCount == 1 ? "1 face" : FormattableString.Invariant($"{FaceCount} faces");
+    public string Contents => ExportSummary.OfFaces(FaceCount).Contents;
 
     /// <summary>Finds the instances of a scene, or as many large ones as the settings allow.</summary>
     /// <param name="scene">Scene whose fractals are finite, unless the settings say how many instances there may be.</param>
@@ -70,11 +70,15 @@ public sealed class ExportedScene
         return Create(placed, objectIndex, meshIndex, frame, count, instances);
     }
 
-    private static ExportedPart Create(
+    private ExportedPart Create(
         PlacedModel placed, int objectIndex, int meshIndex, AffineMap frame, long count, IEnumerable<MeshInstance> instances)
     {
         var toFile = frame * placed.ObjectToWorld;
-        return new(placed, objectIndex, meshIndex, count, instances.Select(instance => instance with { Map = toFile * instance.Map }));
+        return new(placed, objectIndex, meshIndex, count, instances.Select(instance =>
+        {
+            _settings.Cancellation.ThrowIfCancellationRequested();
+            return instance with { Map = toFile * instance.Map };
+        }));
     }
 
     private (IEnumerable<MeshInstance> Instances, long Count) Enumerate(PlacedModel placed, Fractal fractal)
@@ -110,7 +114,7 @@ public sealed class ExportedScene
             : new(shade.Factor * gradient.EndColour.ToLinearVector(), 1 - shade.Factor);
     }
 
-    private static ImmutableArray<ExportedPart> ListLargest(LoadedScene scene, AffineMap frame, long count)
+    private ImmutableArray<ExportedPart> ListLargest(LoadedScene scene, AffineMap frame, long count)
     {
         var fractals = scene.Objects.Select(static placed => (
             Fractal: placed.Model is FractalModel { Fractal: var fractal } ? fractal : Fractal.Of(placed.Model.Mesh),

@@ -6,10 +6,13 @@ namespace FractalEngine.Parsing.Exports;
 
 /// <summary>Writes numbers of binary formats to a stream through a buffer, the lowest byte first.</summary>
 /// <param name="stream">Receives the bytes; left open.</param>
-internal sealed class LittleEndianWriter(Stream stream)
+/// <param name="progress">Told the part of all bytes that is written; null for nobody.</param>
+/// <param name="total">Number of all bytes.</param>
+internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progress, long total)
 {
     private readonly byte[] _buffer = new byte[1 << 18];
     private int _length;
+    private long _written;
 
     /// <summary>Writes bytes as they are, such as a header.</summary>
     public void WriteBytes(ReadOnlySpan<byte> bytes) => bytes.CopyTo(Reserve(bytes.Length));
@@ -64,7 +67,9 @@ internal sealed class LittleEndianWriter(Stream stream)
     public void Flush()
     {
         stream.Write(_buffer.AsSpan(0, _length));
+        _written += _length;
         _length = 0;
+        progress?.Report((double)_written / total);
     }
 
     /// <summary>Makes room for some bytes, fewer than a thousand, behind those before.</summary>

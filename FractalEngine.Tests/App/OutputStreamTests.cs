@@ -16,7 +16,7 @@ public sealed class OutputStreamTests
         using var interruption = new InterruptSignal();
         using Stream stream = isStandard
             ? new StandardStream(() => target, static _ => { })
-            : new InterruptibleStream(target, interruption);
+            : new InterruptibleStream(target, interruption.ThrowIfRequested);
         Assert.Equal((false, false, true), (stream.CanRead, stream.CanSeek, stream.CanWrite));
         stream.Write([1, 2, 3, 4, 5], 1, 3);
         stream.Write([6, 7]);
@@ -36,7 +36,7 @@ public sealed class OutputStreamTests
         using var memory = new MemoryStream();
         using var target = new BufferedStream(memory);
         using var interruption = new InterruptSignal();
-        using var stream = new InterruptibleStream(target, interruption);
+        using var stream = new InterruptibleStream(target, interruption.ThrowIfRequested);
         stream.Write([1, 2]);
         Assert.Empty(memory.ToArray());
         stream.Flush();

@@ -27,7 +27,7 @@ internal static class ActionTable
         new("approximate", "File", "Approximate…", "look for a fractal that makes what is shown, and open it beside that, or end that")
         {
             Run = OverlayOf(static a => a.Search.Toggle(() => a.Panels.Open("fractal"))), IsAvailable = HasDocument,
-            IsOn = static a => a.Search.Status is not null,
+            IsOn = static a => a.Search.IsRunning,
         },
         new("save", "File", "Save", "save the changed numbers into their files, and the view into the scene's file")
         {
@@ -36,6 +36,11 @@ internal static class ActionTable
         new("save-as", "File", "Save as…", "save as a new scene")
         {
             Keys = [KeyChord.ControlShift(Key.S)], Run = OverlayOf(static a => a.Saver.SaveAs()), IsAvailable = HasDocument,
+        },
+        new("export", "File", "Export…", "write what is on the screen for other programs, or end that")
+        {
+            Keys = [KeyChord.Control(Key.E)], Run = OverlayOf(static a => a.Export.Toggle()), IsAvailable = HasDocument,
+            IsOn = static a => a.Export.IsRunning,
         },
         new("screenshot", "File", "Screenshot", "save a screenshot into `out/`")
         {

@@ -22,13 +22,14 @@ namespace FractalEngine.App.Window.Actions;
 /// <param name="files">Opens files, and asks before changes are lost.</param>
 /// <param name="saver">Edits and saves files.</param>
 /// <param name="search">Looks for fractals.</param>
+/// <param name="export">Writes files for other programs.</param>
 /// <param name="settings">The initial render settings.</param>
 /// <param name="clock">Tells the present time.</param>
 /// <param name="requestDraw">Lets the window draw a new frame.</param>
 internal sealed class WindowActions(
     RenderWindow window, WindowRenderer renderer, WindowOverlay overlay, WindowTracing tracing, PanelLayout panels,
-    DocumentLoader loader, FileCommands files, DocumentSaver saver, WindowApproximation search, RenderSettings settings,
-    Func<TimeSpan> clock, Action requestDraw)
+    DocumentLoader loader, FileCommands files, DocumentSaver saver, WindowApproximation search, WindowExport export,
+    RenderSettings settings, Func<TimeSpan> clock, Action requestDraw)
 {
     private readonly Queue<WindowAction> _chosen = [];
 
@@ -45,6 +46,12 @@ internal sealed class WindowActions(
 
     /// <summary>Looks for a fractal that makes what is shown.</summary>
     public WindowApproximation Search => search;
+
+    /// <summary>Writes what is shown for other programs.</summary>
+    public WindowExport Export => export;
+
+    /// <summary>All that runs in the background, with a panel of its own while it does.</summary>
+    public IEnumerable<WindowJob> Jobs => [export, search];
 
     public PanelLayout Panels => panels;
 

@@ -39,9 +39,6 @@ internal sealed class WindowOverlay
     /// <summary>Lines about the bodies of the scene; null if there are none to show.</summary>
     public string? PhysicsStatus { get; set; }
 
-    /// <summary>What is looked for at the moment, in lines; null for nothing.</summary>
-    public string? SearchStatus { get; set; }
-
     /// <summary>Whether the bodies are described elsewhere, so that no lines about them are shown.</summary>
     public bool HidesPhysics { get; set; }
 
@@ -65,11 +62,6 @@ internal sealed class WindowOverlay
             if (PhysicsStatus is { } status && !HidesPhysics)
             {
                 panels.Add(new(OverlayAnchor.TopLeft, [new OverlayLine(status, null, OverlayTone.Dim)]));
-            }
-
-            if (SearchStatus is { } search)
-            {
-                panels.Add(OverlayPanel.OfText(OverlayAnchor.BottomRight, search.Split('\n')));
             }
 
             if (_description is { } description && !(MessageReplacesStatus && _message is not null))

@@ -57,7 +57,7 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
                 : FindObstacle(document, settings);
             if (_obstacle is null && !document.IsMoving)
             {
-                request = new(document.Physics.CurrentScene, document.UpdateView((double)width / height), width, height);
+                request = new(document.LitScene, document.UpdateView((double)width / height), width, height);
             }
         }
 

@@ -11,9 +11,12 @@ internal static class PathText
     }
 
     /// <summary>Returns the full path of a text; <c>~</c> is the home folder.</summary>
-    public static string Expand(string text)
+    /// <param name="text">What a user has typed.</param>
+    /// <param name="ending">What a name gets that has no ending.</param>
+    public static string Expand(string text, string ending = "")
     {
         var path = text.Trim();
+        path = path.Length > 0 && Path.GetExtension(path).Length == 0 ? path + ending : path;
         if (path is "~" || path.StartsWith("~/", StringComparison.Ordinal))
         {
             path = Environment.GetFolderPath(Environment.SpecialFolder.UserProfile) + path[1..];

@@ -7,6 +7,7 @@ using FractalEngine.Core.Files;
 using FractalEngine.Core.Threading;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
+using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.App.Window.Loading;
@@ -23,12 +24,13 @@ internal sealed class BackgroundLoad
     /// <param name="options">What overrides the files.</param>
     /// <param name="settings">The render settings to prepare the scene for.</param>
     /// <param name="aspect">Width divided by height of the window. Only models visible at first are prepared.</param>
+    /// <param name="size">Size of the window in pixels.</param>
     /// <param name="cache">What was read before. No other load may use it meanwhile.</param>
     /// <param name="previous">The document whose models are used further where their files are unchanged; null for none.</param>
     /// <param name="ended">Called on the other thread when the load has succeeded or failed.</param>
     public BackgroundLoad(
-        LoadRequest request, LoadOptions options, RenderSettings settings, double aspect, AssetCache cache, Document? previous,
-        Action ended)
+        LoadRequest request, LoadOptions options, RenderSettings settings, double aspect, (int Width, int Height) size, AssetCache cache,
+        Document? previous, Action ended)
     {
         Request = request;
         _cache = cache;
@@ -39,7 +41,8 @@ internal sealed class BackgroundLoad
             {
                 var file = AssetLoader.Load(request.Path, options with { EditedTexts = request.Edits.Texts }, _progress, cache);
                 var models = file.Scene.Models.ToHashSet();
-                var preparation = new ScenePreparation(file.Scene, settings, previous?.FirstSightLoader.Stop(models.Contains));
+                var lit = ExposureMeter.Expose(file.Scene, View.Of(file.Scene, aspect), size.Width, size.Height, settings);
+                var preparation = new ScenePreparation(lit, settings, previous?.FirstSightLoader.Stop(models.Contains));
                 if (file.Scene.Objects.Length == 1 || !settings.LazyLoading)
                 {
                     // A single object is prepared even if it is out of view, since there is nothing else to show.

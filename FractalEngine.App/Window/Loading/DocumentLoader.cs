@@ -41,8 +41,8 @@ internal sealed class DocumentLoader(
     /// <summary>The document shown; null until the first file is loaded.</summary>
     public Document? Document { get; private set; }
 
-    /// <summary>Whether files may refer to others outside their folder.</summary>
-    public bool AllowsOutsideFiles => options.Load.AllowOutsideFiles;
+    /// <summary>What overrides the files, such as whether they may refer to others outside their folder.</summary>
+    public LoadOptions Options => options.Load;
 
     /// <summary>The exit code of the first load.</summary>
     public int ExitCode { get; private set; }
@@ -121,7 +121,8 @@ internal sealed class DocumentLoader(
             var request = State.Loading!;
             var shown = request.Continues ? Document : null;
             _load = new(
-                request, options.Load with { FilmTime = shown?.Film?.BeginLoad() }, settings(), area.Aspect, _cache, shown, window.Wake);
+                request, options.Load with { FilmTime = shown?.Film?.BeginLoad() }, settings(), area.Aspect, (window.Width, window.Height),
+                _cache, shown, window.Wake);
         }
 
         ShowTitle();

@@ -45,7 +45,7 @@ internal sealed class DocumentSaver(DocumentLoader loader, PromptHost prompts, A
         {
             prompts.Open(new TextPrompt(
                 "Save as a new scene", PathText.Shorten(NewSceneFile.Propose(document.File.Path)),
-                text => TrySaveAs(PathText.Expand(text), proceed)));
+                text => TrySaveAs(PathText.Expand(text, ".sdo"), proceed)));
         }
     }
 
@@ -175,7 +175,6 @@ internal sealed class DocumentSaver(DocumentLoader loader, PromptHost prompts, A
             return "the name is empty";
         }
 
-        path = Path.GetExtension(path).Length == 0 ? path + ".sdo" : path;
         if (State.IsEditLoading)
         {
             // A copy without the last change would take it away.
@@ -197,7 +196,7 @@ internal sealed class DocumentSaver(DocumentLoader loader, PromptHost prompts, A
         {
             var document = loader.Document!;
             var scene = document.GetCurrentScene() with { Camera = Document.WithoutNegativeZeros(document.Camera) };
-            NewSceneFile.Write(document.File, scene, path, loader.AllowsOutsideFiles);
+            NewSceneFile.Write(document.File, scene, path, loader.Options.AllowOutsideFiles);
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FractalEngineException)
         {

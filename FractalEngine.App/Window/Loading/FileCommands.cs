@@ -34,8 +34,7 @@ internal sealed class FileCommands(
     private void AskForName(FractalTemplate template, Action created) => prompts.Open(new TextPrompt(
         "Name of the new fractal", PathText.Shorten(NewFractalFile.Propose(template, Directory.GetCurrentDirectory())), text =>
         {
-            var path = PathText.Expand(text);
-            path = path.Length > 0 && Path.GetExtension(path).Length == 0 ? path + ".fdo" : path;
+            var path = PathText.Expand(text, ".fdo");
             try
             {
                 NewFractalFile.Write(template, path);

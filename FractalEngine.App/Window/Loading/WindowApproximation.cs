@@ -1,15 +1,11 @@
 using FractalEngine.App.Approximation;
-using FractalEngine.App.Shell;
 using FractalEngine.App.Window.Files;
 using FractalEngine.App.Window.Input;
-using FractalEngine.App.Window.State;
 using FractalEngine.Core;
 using FractalEngine.Core.Approximation;
 using FractalEngine.Core.Files;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Threading;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Approximation;
 using FractalEngine.Parsing.Editing;
@@ -23,82 +19,40 @@ namespace FractalEngine.App.Window.Loading;
 /// <param name="report">Shows a message.</param>
 /// <param name="wake">Lets the window look at the search, from any thread.</param>
 internal sealed class WindowApproximation(
-    DocumentLoader loader, FileCommands files, PromptHost prompts, Action<string> report, Action wake) : IProgress<ApproximationProgress>
+    DocumentLoader loader, FileCommands files, PromptHost prompts, Action<string> report, Action wake)
+    : WindowJob("Approximate", report, wake), IProgress<ApproximationProgress>
 {
     // The fractal stands beside the model, with a part of its width between them.
     private const double Gap = 0.2;
-
-    private BackgroundJob<(Mesh Mesh, ApproximationResult Result)>? _job;
-    private Action<Mesh, ApproximationResult> _finish = static (_, _) => { };
-    private volatile string _status = "";
-
-    /// <summary>What the search does at the moment; null where none runs.</summary>
-    public string? Status => _job is null ? null : _status;
 
     /// <summary>Asks for a name and begins the search, or ends one that runs.</summary>
     /// <param name="opened">Called once what was found is opened.</param>
     public void Toggle(Action opened)
     {
-        if (_job is { } job)
+        if (!Stop())
         {
-            job.Cancel();
-            report("the search has been ended, and nothing is written");
-            _job = null;
-            return;
+            var model = loader.Document!.File.Path;
+            var proposal = NewFile.Propose($"{Path.ChangeExtension(model, null)}-fractal", ".fdo", static path => !Path.Exists(path));
+            prompts.Open(new TextPrompt(
+                "Name of the fractal for what is shown", PathText.Shorten(proposal), text => TryStart(text, opened)));
         }
-
-        var model = loader.Document!.File.Path;
-        var proposal = NewFile.Propose($"{Path.ChangeExtension(model, null)}-fractal", ".fdo", static path => !Path.Exists(path));
-        prompts.Open(new TextPrompt("Name of the fractal for what is shown", PathText.Shorten(proposal), text => TryStart(text, opened)));
-    }
-
-    /// <summary>Takes over what was found. Must be called on the window's thread.</summary>
-    public Redraw Poll()
-    {
-        if (_job is not { } job)
-        {
-            return Redraw.None;
-        }
-
-        if (!job.Result.IsCompleted)
-        {
-            return Redraw.Overlay;
-        }
-
-        _job = null;
-        try
-        {
-            var (mesh, result) = job.Result.GetAwaiter().GetResult();
-            _finish(mesh, result);
-        }
-        catch (Exception exception) when (
-            exception is FractalEngineException or IOException or UnauthorizedAccessException or OutOfMemoryException)
-        {
-            report(Failure.Of(exception).Text);
-        }
-
-        return Redraw.Overlay;
     }
 
     public void Report(ApproximationProgress value)
     {
         var best = value.Best is { } result ? FormattableString.Invariant($"\nbest so far: {result.Bytes} bytes") : "";
-        _status = $"looking for {value.Stage}{best}";
-        wake();
+        Status = $"looking for {value.Stage}{best}";
     }
 
     /// <summary>Returns why a name is refused; null where the search has begun.</summary>
     private string? TryStart(string text, Action opened)
     {
-        var path = PathText.Expand(text);
-        path = path.Length > 0 && Path.GetExtension(path).Length == 0 ? path + ".fdo" : path;
+        var path = PathText.Expand(text, ".fdo");
         var scenePath = Path.ChangeExtension(path, ".sdo");
         try
         {
-            NewFile.RequireEnding(path, "fractal", ".fdo");
-            NewFile.RequireFolder(path);
-            NewFile.RequireFree(path);
-            NewFile.RequireFree(scenePath);
+            NewFile.Require(path, "a fractal", ".fdo");
+            NewFile.Require(scenePath, "a scene", ".sdo");
         }
         catch (IOException exception)
         {
@@ -106,29 +60,27 @@ internal sealed class WindowApproximation(
         }
 
         var (file, scene) = (loader.Document!.File, loader.Document.GetCurrentScene());
-        _finish = (mesh, result) =>
+        Start("expanding the scene", cancellation =>
         {
-            var lines = new ApproximationText(mesh, result).Lines().ToArray();
-            GrammarFile.Write(path, result.Grammar, result.Distance.Diagonal, lines);
-            var name = Path.GetRelativePath(Path.GetDirectoryName(file.Path)!, path).Replace(Path.DirectorySeparatorChar, '/');
-            var place = new Vector((1 + Gap) * mesh.UsedBounds.Size.X, 0, 0);
-            var found = new SceneObject(name, Transformation.At(place));
-            var both = scene with { Camera = null, Objects = scene.Objects.Add(found) };
-            NewSceneFile.Write(file, both, scenePath, loader.AllowsOutsideFiles);
-            report(string.Join('\n', lines));
-            files.Open(PathText.Shorten(scenePath));
-            opened();
-        };
-        _status = "expanding the scene";
-        _job = new(
-            cancellation =>
+            var mesh = file.Scene.Objects.Flatten(ApproximationLimits.Faces.Value);
+            var result = mesh.FaceCount > 0 && mesh.UsedBounds.Diagonal > 0
+                ? MeshApproximator.Find(mesh, null, this, cancellation)
+                : throw new FractalEngineException("there are no faces, so there is nothing to approximate");
+            cancellation.ThrowIfCancellationRequested();
+            return () =>
             {
-                var mesh = file.Scene.Objects.Flatten(ApproximationLimits.Faces.Value);
-                return mesh.FaceCount > 0 && mesh.UsedBounds.Diagonal > 0
-                    ? (mesh, MeshApproximator.Find(mesh, null, this, cancellation))
-                    : throw new FractalEngineException("there are no faces, so there is nothing to approximate");
-            },
-            wake);
+                var lines = new ApproximationText(mesh, result).Lines().ToArray();
+                GrammarFile.Write(path, result.Grammar, result.Distance.Diagonal, lines);
+                var name = Path.GetRelativePath(Path.GetDirectoryName(file.Path)!, path).Replace(Path.DirectorySeparatorChar, '/');
+                var place = new Vector((1 + Gap) * mesh.UsedBounds.Size.X, 0, 0);
+                var found = new SceneObject(name, Transformation.At(place));
+                var both = scene with { Camera = null, Objects = scene.Objects.Add(found) };
+                NewSceneFile.Write(file, both, scenePath, loader.Options.AllowOutsideFiles);
+                Tell(string.Join('\n', lines));
+                files.Open(PathText.Shorten(scenePath));
+                opened();
+            };
+        });
         return null;
     }
 }

@@ -48,8 +48,11 @@ internal sealed class WindowInterface
             _sectionHandle.Build(ui);
             _handles.Build(ui);
             ui.MenuBar(() => BuildMenus(ui));
-            ui.Panels([.. _panels.All], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
         }
+
+        // Also where all others are hidden.
+        var running = _actions.Jobs.Select((job, index) => job.PanelIn(ui, index)).OfType<UiPanel>();
+        ui.Panels([.. _panels.IsShown ? _panels.All : [], .. running], ui.FreeArea.Width < MinWidthForTexts * ui.Scale ? 2 : 0);
 
         _keyList.Build(ui);
     }

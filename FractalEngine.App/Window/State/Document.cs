@@ -385,12 +385,37 @@ internal sealed class Document : IDisposable
     public static Camera WithoutNegativeZeros(Camera camera) =>
         camera with { Position = camera.Position + Vector.Zero, Rotation = camera.Rotation + Vector.Zero };
 
-    public Scene GetCurrentScene() => File.Scene.Scene with
+    /// <summary>Returns what the file says, or another scene, with the present view.</summary>
+    public Scene GetCurrentScene(Scene? other = null) => (other ?? File.Scene.Scene) with
     {
         Camera = Camera,
         Projection = FlyingCamera.Projection,
         OrthographicHeight = FlyingCamera.OrthographicHeight,
     };
+
+    /// <summary>The scene with its bodies where they are, and the exposure that is drawn where the file leaves that open.</summary>
+    public LoadedScene LitScene => Physics.CurrentScene is { Scene: { HasAutoExposure: true } scene } current
+        ? current with { Scene = scene with { Exposure = Renderer.Scene.Source.Scene.Exposure, HasAutoExposure = false } }
+        : Physics.CurrentScene;
+
+    /// <summary>
+    /// Returns what is on the screen: bodies where they are, and the present view where that is not the file's. A fractal or mesh that was
+    /// opened alone is without its stage, unless that is wanted.
+    /// </summary>
+    public LoadedScene GetShownScene(bool isStaged)
+    {
+        var shown = Physics.CurrentScene;
+        if (!isStaged && File.Kind != FileKind.Scene)
+        {
+            shown = LoadedScene.Of(new()
+            {
+                Handedness = shown.Scene.Handedness,
+                Objects = [.. shown.Objects.Select(static placed => placed.Declaration with { Gradient = null })],
+            });
+        }
+
+        return State.Draft.IsChanged(SceneView) ? shown with { Scene = GetCurrentScene(shown.Scene) } : shown;
+    }
 
     public void Dispose()
     {

@@ -25,6 +25,7 @@ public sealed class CsvExport : SceneExport
         var exported = ExportedScene.Of(scene, settings, ExportFrame.Unchanged.From(scene, settings), hasPaths: true);
         using var writer = new StreamWriter(stream, new UTF8Encoding(false), bufferSize: 1 << 16, leaveOpen: true);
         writer.Write($"{Header}\n");
+        var (written, count) = (0L, exported.Parts.Sum(static part => part.Count));
         foreach (var part in exported.Parts)
         {
             var name = BodyCsvWriter.Quote(part.ObjectName);
@@ -39,10 +40,10 @@ public sealed class CsvExport : SceneExport
                 }
 
                 writer.Write(string.Create(CultureInfo.InvariantCulture, $"{colour.Red:R},{colour.Green:R},{colour.Blue:R}\n"));
+                settings.Progress?.Report((double)++written / count);
             }
         }
 
-        var count = exported.Parts.Sum(static part => part.Count);
         return new(count == 1 ? "1 instance" : FormattableString.Invariant($"{count} instances"));
     }
 }

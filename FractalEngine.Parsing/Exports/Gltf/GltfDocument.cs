@@ -109,8 +109,10 @@ internal sealed class GltfDocument
         writer.WriteUInt32(BitConverter.SingleToUInt32Bits((float)number));
 
     /// <summary>Writes the JSON, and then all numbers and images.</summary>
+    /// <param name="stream">Receives the file.</param>
+    /// <param name="progress">Told the part that is written; null for nobody.</param>
     /// <exception cref="FractalLimitException">It has more bytes than its format can count. Nothing is written then.</exception>
-    public void Write(Stream stream)
+    public void Write(Stream stream, IProgress<double>? progress)
     {
         if (_length > 0)
         {
@@ -126,7 +128,7 @@ internal sealed class GltfDocument
                 CultureInfo.InvariantCulture, $"the file would have {total} bytes, more than a .glb can count: {uint.MaxValue}"));
         }
 
-        var writer = new LittleEndianWriter(stream);
+        var writer = new LittleEndianWriter(stream, progress, total - json.Length);
         writer.WriteBytes("glTF"u8);
         writer.WriteUInt32(2);
         writer.WriteUInt32((uint)total);

@@ -31,7 +31,7 @@ public sealed class GltfExport : SceneExport
         var surfaces = new GltfSurfaces(document);
         var skewed = exported.Parts.Sum(part => new GltfPart(document, surfaces, part).Add());
         AddView(document, scene.Scene, frame);
-        document.Write(stream);
+        document.Write(stream, settings.Progress);
         return new(exported.Contents)
         {
             Losses =

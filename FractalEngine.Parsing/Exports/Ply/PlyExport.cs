@@ -9,6 +9,8 @@ namespace FractalEngine.Parsing.Exports.Ply;
 /// <remarks>Streamed at some 300 MB/s, in two passes over the instances; memory as <see cref="ExportedScene"/>.</remarks>
 public sealed class PlyExport : SceneExport
 {
+    private const int FaceLength = 1 + (3 * sizeof(uint));
+
     /// <inheritdoc/>
     public override string Ending => ".ply";
 
@@ -25,12 +27,15 @@ public sealed class PlyExport : SceneExport
         }
 
         var hasColours = exported.Parts.Any(static part => part.HasColour);
-        var writer = new LittleEndianWriter(stream);
-        writer.WriteBytes(Encoding.ASCII.GetBytes(
+        var header = Encoding.ASCII.GetBytes(
             FormattableString.Invariant($"ply\nformat binary_little_endian 1.0\ncomment FractalEngine\nelement vertex {vertexCount}\n")
             + "property double x\nproperty double y\nproperty double z\n"
             + (hasColours ? "property uchar red\nproperty uchar green\nproperty uchar blue\n" : "")
-            + FormattableString.Invariant($"element face {exported.FaceCount}\nproperty list uchar int vertex_indices\nend_header\n")));
+            + FormattableString.Invariant($"element face {exported.FaceCount}\nproperty list uchar int vertex_indices\nend_header\n"));
+        var vertexLength = (3 * sizeof(double)) + (hasColours ? 3 : 0);
+        var writer = new LittleEndianWriter(
+            stream, settings.Progress, header.Length + (vertexCount * vertexLength) + (exported.FaceCount * FaceLength));
+        writer.WriteBytes(header);
         foreach (var (part, vertices) in parts)
         {
             WriteVertices(part, vertices, hasColours, writer);

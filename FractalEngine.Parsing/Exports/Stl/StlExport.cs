@@ -10,6 +10,7 @@ namespace FractalEngine.Parsing.Exports.Stl;
 public sealed class StlExport : SceneExport
 {
     private const int HeaderLength = 80;
+    private const int FaceLength = (12 * sizeof(float)) + sizeof(ushort);
 
     /// <inheritdoc/>
     public override string Ending => ".stl";
@@ -24,7 +25,7 @@ public sealed class StlExport : SceneExport
             throw new FractalLimitException($"{exported.Contents} are more than an STL file can count: {uint.MaxValue}");
         }
 
-        var writer = new LittleEndianWriter(stream);
+        var writer = new LittleEndianWriter(stream, settings.Progress, HeaderLength + sizeof(uint) + (FaceLength * exported.FaceCount));
         // Other programs take a file for text if it begins with the word "solid".
         writer.WriteBytes(Encoding.ASCII.GetBytes("FractalEngine, binary STL".PadRight(HeaderLength)));
         writer.WriteUInt32((uint)exported.FaceCount);

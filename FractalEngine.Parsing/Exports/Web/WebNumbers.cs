@@ -57,7 +57,8 @@ internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebL
             return;
         }
 
-        var source = options.Text ?? SourceText.Read(path, Path.GetFileName(path), ParsingLimits.DescriptionBytes.Value);
+        var source = options.Text ?? (options.EditedTexts.TryGetValue(path, out var edited) ? new(path, edited)
+            : SourceText.Read(path, Path.GetFileName(path), ParsingLimits.DescriptionBytes.Value));
         foreach (var number in FractalNumber.FindAll(source).Where(static one => one.Role == FractalNumberRole.Named))
         {
             var value = options.Values.TryGetValue(number.Name, out var set) ? set : number.Value;

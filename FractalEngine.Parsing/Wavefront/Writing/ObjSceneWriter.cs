@@ -61,18 +61,19 @@ public sealed class ObjSceneWriter
         var exported = ExportedScene.Of(scene, settings, ExportFrame.Unchanged.From(scene, settings));
         writer._text.WriteText(MeshCountHeader.Format(exported.FaceCount) + "\n");
         writer._text.WriteText(materials is null ? "" : $"mtllib {materialFile}\n");
+        var (written, count) = (0L, exported.Parts.Sum(static part => part.Count));
         for (var i = 0; i < exported.Parts.Length; i++)
         {
             var part = exported.Parts[i];
             writer._text.WriteText(i > 0 && part.ObjectIndex == exported.Parts[i - 1].ObjectIndex ? "" : $"o {part.ObjectName}\n");
-            writer.WritePart(part);
+            writer.WritePart(part, () => settings.Progress?.Report((double)++written / count));
         }
 
         writer._text.Flush();
         return exported.FaceCount;
     }
 
-    private void WritePart(ExportedPart part)
+    private void WritePart(ExportedPart part, Action report)
     {
         var firstTextureCoordinate = _textureCoordinateCount;
         _text.WriteTextureCoordinates(part.Mesh.TextureCoordinates.AsSpan());
@@ -80,6 +81,7 @@ public sealed class ObjSceneWriter
         foreach (var instance in part.Instances)
         {
             WriteInstance(part, instance, firstTextureCoordinate);
+            report();
         }
     }
 

@@ -1,6 +1,4 @@
 using System.Diagnostics;
-using System.Runtime.InteropServices;
-using System.Text;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Render.Windowing.Events;
@@ -90,21 +88,13 @@ public sealed class RenderWindowTests : IDisposable
         Assert.Empty(window.WaitEvents(TimeSpan.Zero));
     }
 
-    /// <summary>Queues the event that SDL makes of a dropped file. GLFW has no way to queue one.</summary>
     [SkippableFact]
     public void Drop_OfAFile_IsAnEvent()
     {
         using var window = Open();
         Drain(window);
-        Elsewhere.SkipIf(
-            !typeof(RenderWindow).Assembly.GetReferencedAssemblies().Any(static name => name is { Name: "OpenTK", Version.Major: 1 }),
-            "the window is not one of SDL");
         const string path = "/folder/größer.sdo";
-        // SDL_DropEvent: its type, then the text at offset 8, then the window, 0 for any.
-        var item = new byte[128];
-        BitConverter.TryWriteBytes(item, 0x1000);
-        BitConverter.TryWriteBytes(item.AsSpan(8), (long)DuplicateText(Encoding.UTF8.GetBytes(path + '\0')));
-        Assert.Equal(1, PushEvent(item));
+        SdlQueue.Drop(path);
         Assert.Equal([new FileDropped(path)], window.WaitEvents(TimeSpan.Zero).OfType<FileDropped>());
     }
 
@@ -141,14 +131,6 @@ public sealed class RenderWindowTests : IDisposable
             throw new SkipException(exception.Message);
         }
     }
-
-    [DllImport("libSDL2-2.0.so.0", EntryPoint = "SDL_PushEvent")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern int PushEvent(byte[] item);
-
-    [DllImport("libSDL2-2.0.so.0", EntryPoint = "SDL_strdup")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
-    private static extern IntPtr DuplicateText(byte[] text);
 
     /// <summary>Drops the events of opening: shown, exposed, the pointer inside.</summary>
     private static void Drain(RenderWindow window)

@@ -49,6 +49,7 @@ internal static class InteractionFiles
         ("scene.sdo", Scene),
         ("spin.sdo", "c (0, 0, -8) (0, 0, 0) 60\no \"cube.obj\" # name \"spinner\" moving spin (0.3, 0.5, 0.7)\n"),
         ("inner/cube.obj", SampleFiles.Cube),
+        ("open.obj", "mtllib missing.mtl\nusemtl missing\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"),
         ("row.fdo", Row),
         ("other.fdo", SampleFiles.Row("4").Replace("\r", "", StringComparison.Ordinal)),
         ("two.sdo", "c (0, 0, -8) (0, 0, 0) 60\no \"row.fdo\" ((0, 0, 0), #, #)\no \"other.fdo\" ((0, 2, 0), #, #)\n"),

@@ -91,6 +91,14 @@ internal sealed partial class Scenario : IDisposable
     /// <summary>Clicks a pixel with a button, once or more.</summary>
     public static Action<Scenario> ClickAt(int x, int y, int count = 1, int button = 1) => s => s.ClickPixel(x, y, count, button);
 
+    /// <summary>Clicks a pixel while Ctrl is held.</summary>
+    public static Action<Scenario> ControlClickAt(int x, int y) => s =>
+    {
+        s.Window.Send("keydown Control_L");
+        s.ClickPixel(x, y, 1);
+        s.Window.Send("keyup Control_L");
+    };
+
     /// <summary>
     /// Clicks a text twice, so that the program learns of the second click before it can show what the first one leads to.
     /// </summary>
