@@ -24,6 +24,12 @@ public readonly record struct SurfaceEdges(int OpenCount, int TouchingCount, Vec
         {
             var from = representatives[mesh.VertexIndices[i]];
             var to = representatives[mesh.VertexIndices[i % 3 == 2 ? i - 2 : i + 1]];
+            if (from == to)
+            {
+                // That of a face without an area.
+                continue;
+            }
+
             ref var edge = ref CollectionsMarshal.GetValueRefOrAddDefault(edges, (Math.Min(from, to), Math.Max(from, to)), out _);
             edge = (edge.Balance + Math.Sign(to - from), edge.Count + 1);
         }
