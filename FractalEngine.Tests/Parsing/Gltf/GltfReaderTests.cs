@@ -4,6 +4,7 @@ using System.Text.Json.Nodes;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Mtl;
@@ -311,6 +312,44 @@ public sealed class GltfReaderTests : IDisposable
         Assert.InRange(GC.GetTotalAllocatedBytes() - before, 0, 50_000_000);
         Assert.Equal("the meshes of the file have more than the limit of 100000000 corners", fault.Message);
         Assert.True(fault.IsLimitExceeded);
+    }
+
+    /// <summary>An accessor without bytes is all zeros, a hundred million of which fit into a line of text.</summary>
+    [Fact]
+    public void Accessor_OfMoreElementsThanBytes_IsRefused()
+    {
+        var document = QuadDocument();
+        document["accessors"].Add(JsonNode.Parse("""{"componentType": 5126, "count": 49, "type": "VEC3"}"""));
+        Assert.Contains(
+            "an accessor has more elements than the buffers have bytes", Errors.MessageOf(() => Read(document.Embedded())),
+            StringComparison.Ordinal);
+        document["accessors"][1]!["count"] = 48;
+        Assert.Equal(4, Read(document.Embedded()).VertexCount);
+    }
+
+    [Fact]
+    public void Materials_OfOneNameAndOfTheNumbersOfOthers_AreAllDifferent()
+    {
+        var document = QuadDocument();
+        document["meshes"][0]!["primitives"] = new JsonArray();
+        string?[] names = ["A", "A", "A 1", null, "material 3", "material 3 3"];
+        foreach (var (i, name) in names.Index())
+        {
+            document["materials"].Add(new JsonObject
+            {
+                ["name"] = name, ["pbrMetallicRoughness"] = new JsonObject { ["baseColorFactor"] = new JsonArray(i / 8.0, 0, 0, 1) },
+            });
+            document["meshes"][0]!["primitives"]!.AsArray().Add(
+                new JsonObject { ["attributes"] = new JsonObject { ["POSITION"] = 0 }, ["material"] = i });
+        }
+
+        var model = (MeshModel)AssetLoader.Load(Write(document.Embedded())).Scene.Objects[0].Model;
+        Assert.Equal(
+            ["A 0", "A 1 1", "A 1", "material 3 3 3", "material 3", "material 3 3"],
+            model.Mesh.Groups.Select(static group => group.Material));
+        Assert.Equal(
+            Enumerable.Range(0, 6), model.Mesh.Groups.Select(
+                group => (int)Math.Round(8 * model.Materials[group.Material].Diffuse.ToLinear().Red)));
     }
 
     [Fact]
