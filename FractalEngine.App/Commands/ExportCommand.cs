@@ -47,10 +47,14 @@ internal static class ExportCommand
         frame.AddTo(command);
         shared.AddTo(command);
         report.AddTo(command);
-        command.SetAction(result => Run(
-            result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
-            result.GetRequiredValue(output), !result.GetValue(noMaterials), frame.SettingsOf(result), frame.IsWelded(result),
-            report.Begin(result)));
+        command.SetAction(result =>
+        {
+            frame.RequireEffect(result, result.GetRequiredValue(output));
+            return Run(
+                result.GetRequiredValue(shared.File), shared.LoadOptions(result) with { Depth = result.GetValue(depth) },
+                result.GetRequiredValue(output), !result.GetValue(noMaterials), frame.SettingsOf(result), frame.IsWelded(result),
+                report.Begin(result));
+        });
         return command;
     }
 

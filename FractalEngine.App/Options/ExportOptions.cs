@@ -9,7 +9,7 @@ namespace FractalEngine.App.Options;
 /// <summary>The options of <c>export</c> on how much is written, and in which coordinates.</summary>
 internal sealed class ExportOptions
 {
-    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf, too.");
+    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf and .glb, too.");
 
     private readonly Option<bool> _weld = SharedOptions.Flag(
         "--weld", "Join vertices that coincide, and leave out walls between solids that stand side by side.");
@@ -33,6 +33,26 @@ internal sealed class ExportOptions
     public void AddTo(Command command) => SharedOptions.AddAll(command, _flat, _weld, _instances, _handed, _up, _unit, _height);
 
     public bool IsWelded(ParseResult result) => result.GetValue(_weld);
+
+    /// <summary>Requires no option that changes nothing in a format.</summary>
+    /// <param name="result">What is given.</param>
+    /// <param name="output">Name of the file, with its ending.</param>
+    /// <exception cref="UsageException">An option has no effect.</exception>
+    public void RequireEffect(ParseResult result, string output)
+    {
+        Option[] idle = Path.GetExtension(output).ToUpperInvariant() switch
+        {
+            ".HTML" => [_flat, _instances, _handed, _up, _unit, _height],
+            ".CSV" => [_weld],
+            _ => [],
+        };
+        if (idle.FirstOrDefault(option => result.GetResult(option) is { Implicit: false }) is { } given)
+        {
+            throw new UsageException(given == _weld
+                ? "--weld makes one mesh, and so one row of .csv: choose another ending, or leave it out"
+                : $"{given.Name} has no effect on .html, which keeps levels and coordinates as they are");
+        }
+    }
 
     /// <summary>Returns the settings of an export.</summary>
     /// <exception cref="UsageException">Two options contradict each other.</exception>

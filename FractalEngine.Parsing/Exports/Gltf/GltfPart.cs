@@ -25,12 +25,18 @@ internal sealed class GltfPart
 
     private readonly GltfDocument _document;
     private readonly ExportedPart _part;
-    private readonly (int Material, GltfVertices Vertices, MaterialTexture? Texture)[] _groups;
+    private readonly bool _isFlat;
+    private readonly (string Name, int Material, GltfVertices Vertices, MaterialTexture? Texture)[] _groups;
 
     /// <summary>Prepares the mesh, with normals as they are drawn.</summary>
-    public GltfPart(GltfDocument document, GltfSurfaces surfaces, ExportedPart part)
+    /// <param name="document">Receives it.</param>
+    /// <param name="surfaces">Receives its materials.</param>
+    /// <param name="part">The mesh and its places.</param>
+    /// <param name="isFlat">Whether all instances have faces of their own, as skewed ones have.</param>
+    public GltfPart(GltfDocument document, GltfSurfaces surfaces, ExportedPart part, bool isFlat)
     {
         _document = document;
+        _isFlat = isFlat;
         _part = part;
         var mesh = NormalGenerator.Complete(part.Mesh, NormalGenerator.DefaultCreaseAngle);
         _groups = [.. part.Groups.Where(static group => group.FaceCount > 0).Select(group =>
@@ -38,7 +44,7 @@ internal sealed class GltfPart
             var material = part.Placed.Model.Materials.GetValueOrDefault(group.Material) ?? new("colour");
             // Where maps mix colours, these are those of instances.
             material = material with { Diffuse = part.HasTints ? Colour.White : part.ColourOf(group.Material, Tint.None) };
-            return (surfaces.Add(material), new GltfVertices(mesh, group), material.Texture ?? material.NormalTexture);
+            return (group.Material, surfaces.Add(material), new GltfVertices(mesh, group), material.Texture ?? material.NormalTexture);
         })];
     }
 
@@ -69,7 +75,8 @@ internal sealed class GltfPart
         var skewed = counts[(int)Kind.Skewed];
         if (skewed > 0 && _groups.Length > 0)
         {
-            var mesh = AddMesh([.. _groups.Select(group => AddSkewed(group.Vertices, group.Material, group.Texture, skewed))]);
+            var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(
+                group, _part.Instances.Where(instance => KindOf(instance.Map.Linear) == Kind.Skewed), skewed, _part.HasTints))]);
             _document.AddNode(new() { ["name"] = _part.ObjectName, ["mesh"] = mesh });
         }
 
@@ -79,9 +86,6 @@ internal sealed class GltfPart
     private void AddInstances(Kind kind, long count)
     {
         var mirror = kind == Kind.Mirrored ? MirrorZ : Matrix.Identity;
-        var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(
-            group.Vertices, group.Material, group.Texture, [new(0, new(mirror, Vector.Zero), Tint.None)], 1))]);
-        var node = new JsonObject { ["name"] = _part.ObjectName, ["mesh"] = mesh };
         var maps = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind)
             .Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
         var attributes = new JsonObject
@@ -98,34 +102,44 @@ internal sealed class GltfPart
             }),
             ["SCALE"] = AddVectors(maps, count, static instance => ScaleOf(instance.Map.Linear)),
         };
-        if (_part.HasTints)
-        {
-            var group = _part.Groups.First(static group => group.FaceCount > 0).Material;
-            attributes["_COLOR_0"] = AddVectors(maps, count, instance => _part.ColourOf(group, instance.Tint).ToLinearVector());
-        }
-
         _document.Use("EXT_mesh_gpu_instancing", isRequired: true);
-        node["extensions"] = new JsonObject { ["EXT_mesh_gpu_instancing"] = new JsonObject { ["attributes"] = attributes } };
-        _document.AddNode(node);
+        // An instance has one colour, so that with colours of maps each material has a node of its own.
+        foreach (var groups in _part.HasTints ? _groups.Chunk(1) : [_groups])
+        {
+            var mesh = AddMesh([.. groups.Select(group => AddPrimitive(
+                group, [new(0, new(mirror, Vector.Zero), Tint.None)], 1, isTinted: false))]);
+            var own = (JsonObject)attributes.DeepClone();
+            if (_part.HasTints)
+            {
+                own["_COLOR_0"] = AddVectors(
+                    maps, count, instance => _part.ColourOf(groups[0].Name, instance.Tint).ToLinearVector());
+            }
+
+            _document.AddNode(new()
+            {
+                ["name"] = _part.ObjectName,
+                ["mesh"] = mesh,
+                ["extensions"] = new JsonObject { ["EXT_mesh_gpu_instancing"] = new JsonObject { ["attributes"] = own } },
+            });
+        }
     }
 
     private int AddMesh(JsonNode[] primitives) =>
         _document.Add("meshes", new() { ["name"] = _part.ObjectName, ["primitives"] = new JsonArray(primitives) });
 
-    private JsonObject AddSkewed(GltfVertices vertices, int material, MaterialTexture? texture, long count) => AddPrimitive(
-        vertices, material, texture, _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed), count);
-
-    /// <summary>Adds the faces of a group at some places, as one primitive.</summary>
+    /// <summary>Adds the faces of a group at some places, as one primitive, perhaps with what maps mix into its colour.</summary>
     private JsonObject AddPrimitive(
-        GltfVertices vertices, int material, MaterialTexture? texture, IEnumerable<MeshInstance> places, long count)
+        (string Name, int Material, GltfVertices Vertices, MaterialTexture? Texture) group, IEnumerable<MeshInstance> places, long count,
+        bool isTinted)
     {
+        var (name, material, vertices, texture) = group;
         var total = count * vertices.Count;
         var (minimum, maximum) = (float.PositiveInfinity * Vector.One, float.NegativeInfinity * Vector.One);
         foreach (var place in places)
         {
             for (var i = 0; i < vertices.Count; i++)
             {
-                var (x, y, z) = place.Map * vertices.PositionAt(i);
+                var (x, y, z) = LittleEndianWriter.RequireSingle(place.Map * vertices.PositionAt(i));
                 var position = new Vector((float)x, (float)y, (float)z);
                 (minimum, maximum) = (Vector.Min(minimum, position), Vector.Max(maximum, position));
             }
@@ -150,9 +164,10 @@ internal sealed class GltfPart
             });
         }
 
-        if (vertices.HasColours)
+        if (vertices.HasColours || isTinted)
         {
-            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, static (_, vertices, i) => vertices.ColourAt(i));
+            attributes["COLOR_0"] = AddVertices("VEC3", places, total, vertices, (place, vertices, i) => isTinted
+                ? vertices.ColourAt(i).Stretch(_part.ColourOf(name, place.Tint).ToLinearVector()) : vertices.ColourAt(i));
         }
 
         return new JsonObject
@@ -217,8 +232,13 @@ internal sealed class GltfPart
         GltfDocument.WriteFloat(writer, vector.Y);
     }
 
-    private static Kind KindOf(Matrix linear)
+    private Kind KindOf(Matrix linear)
     {
+        if (_isFlat)
+        {
+            return Kind.Skewed;
+        }
+
         var (x, y, z) = ScaleOf(linear);
         var isSkewed = !(Math.Abs(Vector.Dot(linear.V1, linear.V2)) <= MaxCosine * x * y
             && Math.Abs(Vector.Dot(linear.V2, linear.V3)) <= MaxCosine * y * z

@@ -65,9 +65,14 @@ internal sealed class GltfVertices
         return i < 0 ? (0, 0) : (_mesh.TextureCoordinates[i], _mesh.TextureCoordinates[i + 1]);
     }
 
-    /// <summary>The colour of a corner, linear light.</summary>
+    /// <summary>The colour of a corner, linear light; white where the mesh has no colours.</summary>
     public Vector ColourAt(int index)
     {
+        if (!HasColours)
+        {
+            return Vector.One;
+        }
+
         var own = _mesh.Colours.AsSpan(3 * _sources[index].Vertex, 3);
         return new Colour(own[0], own[1], own[2]).ToLinearVector();
     }
