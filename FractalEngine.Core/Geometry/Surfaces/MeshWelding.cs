@@ -116,8 +116,11 @@ public static class MeshWelding
         return representatives;
 
         // What shares a cell is the same: its diagonal is the largest distance.
-        static (long X, long Y, long Z) CellOf(Vector scaled) => (
-            (long)Math.Floor(Math.Sqrt(3) * scaled.X), (long)Math.Floor(Math.Sqrt(3) * scaled.Y), (long)Math.Floor(Math.Sqrt(3) * scaled.Z));
+        static (long X, long Y, long Z) CellOf(Vector scaled)
+        {
+            var (x, y, z) = Math.Sqrt(3) * scaled;
+            return ((long)Math.Floor(x), (long)Math.Floor(y), (long)Math.Floor(z));
+        }
     }
 
     private static bool[] FindDoubleSides(Mesh mesh, ReadOnlySpan<int> sides, int[] representatives, double tolerance)
@@ -161,8 +164,8 @@ public static class MeshWelding
             isDropped[side] = (areas[side] - areas[other]).Length() <= difference;
             if ((areas[side] + areas[other]).Length() <= difference)
             {
+                // The one before stays known: further ones lie within, too.
                 (isDropped[side], isDropped[other]) = (true, true);
-                singles.Remove(keys[side]);
             }
         }
 

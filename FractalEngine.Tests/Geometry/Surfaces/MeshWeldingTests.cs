@@ -64,6 +64,18 @@ public class MeshWeldingTests
     [Fact]
     public void Weld_OfTheSameCubeTwice_KeepsOne() => Assert.Equal(12, WeldCubes([new(0, 0, 0), new(0, 0, 0)]).FaceCount);
 
+    /// <summary>In any order, what is on both sides of a wall takes the wall away.</summary>
+    [Theory]
+    [InlineData(0, 0, 2)]
+    [InlineData(0, 2, 0)]
+    [InlineData(2, 0, 0)]
+    public void Weld_OfACubeTwiceBesideAnother_LeavesNoWall(double first, double second, double third)
+    {
+        var welded = WeldCubes([new(first, 0, 0), new(second, 0, 0), new(third, 0, 0)]);
+        Assert.Equal(20, welded.FaceCount);
+        Assert.Equal(new(0, 0, null), SurfaceEdges.Of(welded));
+    }
+
     [Fact]
     public void Weld_OfCubesAlongAnEdge_TellsThatTheyTouch() =>
         Assert.Equal(new(0, 1, null), SurfaceEdges.Of(WeldCubes([new(0, 0, 0), new(2, 2, 0)])));
