@@ -37,7 +37,8 @@ public sealed class GltfExport : SceneExport
             Losses =
             [
                 .. ExportedScene.LossesOf(scene, hasColours: true, hasTextures: true),
-                .. Tell(settings.IsFlat ? 0 : skewed, "{0} skewed instances have faces of their own, since instances of glTF have no shear"),
+                .. Tell(
+                    settings.IsFlat ? 0 : skewed, "{0} skewed instances have faces of their own, since instances of glTF have no shear"),
                 .. Tell(surfaces.LeftOutCount, "{0} textures are left out, since glTF has PNG and JPEG only"),
                 .. Tell(scene.Scene.Sky is null ? 0 : 1, "the sky is not written"),
             ],

@@ -51,7 +51,7 @@ public sealed class FractalWriter
 
     /// <summary>Returns the text of a fractal file whose base meshes may have materials of the file.</summary>
     /// <param name="description">What the fractal makes of base meshes, and its composition.</param>
-    /// <param name="bases">The base meshes, with the names of files as <see cref="Write(FractalDescription, ImmutableArray{string})"/>.</param>
+    /// <param name="bases">The base meshes, with names of files as strings would be.</param>
     /// <exception cref="FractalEngineException">As there.</exception>
     public static string Write(FractalDescription description, ImmutableArray<BaseReference> bases)
     {

@@ -98,6 +98,7 @@ public sealed class GltfExportTests : IDisposable
             c (0, 0, -5) # 60
             light directional (0, -1, 0) (1, 0.5, 0.5) 2
             light point (1, 2, 3) (1, 1, 1) 1 10
+            light spot (1, 2, 3) (0, -1, 0) 60 (1, 1, 1) 1 10
             o "box.fdo" ((0, 0, 1), #, #) colour (0.5, 1, 1)
             """);
         Assert.Empty(Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses);
@@ -121,6 +122,9 @@ public sealed class GltfExportTests : IDisposable
         Assert.Equal([1.0, 2, -3], nodes[2][12..15]);
         var lights = json.GetProperty("extensions").GetProperty("KHR_lights_punctual").GetProperty("lights");
         Near.Equal(2 * Math.PI, lights[0].GetProperty("intensity").GetDouble(), 1e-12);
+        Near.Equal(Math.PI / 6, lights[2].GetProperty("spot").GetProperty("outerConeAngle").GetDouble(), 1e-12);
+        Near.Equal(
+            Math.PI / 3, json.GetProperty("cameras")[0].GetProperty("perspective").GetProperty("yfov").GetDouble(), 1e-12);
         // A tenth of the range of 10 is 1, where the light brings π.
         Near.Equal(Math.PI, lights[1].GetProperty("intensity").GetDouble(), 1e-12);
     }
@@ -175,6 +179,42 @@ public sealed class GltfExportTests : IDisposable
             found.Distinct().OrderBy(static one => one.Material).ThenBy(static one => one.Colour.X + one.Colour.Y),
             static ((string Material, Vector Colour) a, (string Material, Vector Colour) b) =>
                 a.Material == b.Material && Near.Difference(a.Colour, b.Colour) < Tolerance);
+    }
+
+    /// <summary>Corners have the same texture coordinates after a way through a format whose v points down.</summary>
+    [Fact]
+    public void TextureCoordinates_ReadBack_AreTheSame()
+    {
+        var model = (MeshModel)AssetLoader.Load(Repository.Full("assets/models/crate.obj")).Scene.Objects[0].Model;
+        Export(AssetLoader.Load(Repository.Full("assets/models/crate.obj")).Scene);
+        var read = MeshFile.Read(_folder["a.glb"]);
+        Assert.Equal(CornersOf(model.Mesh).Order(), CornersOf(read).Order());
+
+        static IEnumerable<(string Position, string Coordinate)> CornersOf(Mesh mesh) => mesh.VertexIndices.Zip(mesh.TextureIndices).Select(
+            corner => (mesh.Vertex(corner.First).ToString(), string.Create(
+                System.Globalization.CultureInfo.InvariantCulture,
+                $"{mesh.TextureCoordinates[2 * corner.Second]:F5} {mesh.TextureCoordinates[(2 * corner.Second) + 1]:F5}")));
+    }
+
+    /// <summary>Normals of instances with faces of their own stay on the side that the corners turn around, mirrored or not.</summary>
+    [Fact]
+    public void Normals_OfSkewedMirrors_PointOutward()
+    {
+        File.WriteAllText(_folder["a.fdo"], """
+            skew.matrix (1, 0, 0) (0.5, 1, 0) (0, 0, 1) (6, 0, 0)
+            twin.matrix (-1, 0, 0) (0.5, 1, 0) (0, 0, 1) (9, 0, 0)
+            <$>. [skew., twin.] box
+
+            """);
+        Export(AssetLoader.Load(_folder["a.fdo"]).Scene);
+        var mesh = MeshFile.Read(_folder["a.glb"]);
+        Assert.Equal(24, mesh.FaceCount);
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
+        {
+            var (a, b, c) = mesh.Face(corner / 3);
+            var normal = mesh.Normals.AsSpan(3 * mesh.NormalIndices[corner], 3);
+            Assert.True(Vector.Dot(new(normal[0], normal[1], normal[2]), Vector.Cross(b - a, c - a)) > 0);
+        }
     }
 
     private List<Vector> VectorsOf(JsonElement json, int accessor)

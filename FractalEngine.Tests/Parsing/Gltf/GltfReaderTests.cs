@@ -327,6 +327,25 @@ public sealed class GltfReaderTests : IDisposable
         Assert.Equal(4, Read(document.Embedded()).VertexCount);
     }
 
+    /// <summary>Vertices of primitives without colours are white, whichever come first; alpha counts where it blends.</summary>
+    [Fact]
+    public void ColoursAndOpacity_AreThoseOfThePrimitivesThatHaveThem()
+    {
+        var document = QuadDocument();
+        var colours = document.Add("VEC3", 5126, 3, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0);
+        document["meshes"][0]!["primitives"] = JsonNode.Parse($$"""
+            [{"attributes": {"POSITION": 0}, "material": 0}, {"attributes": {"POSITION": 0, "COLOR_0": {{colours}} }, "material": 1},
+             {"attributes": {"POSITION": 0} }]
+            """);
+        const string surface = "\"pbrMetallicRoughness\": {\"baseColorFactor\": [1, 1, 1, 0.25]}";
+        document["materials"].Add(JsonNode.Parse($$"""{"name": "solid", {{surface}} }"""));
+        document["materials"].Add(JsonNode.Parse($$"""{"name": "glass", "alphaMode": "BLEND", {{surface}} }"""));
+        var model = (MeshModel)AssetLoader.Load(Write(document.Embedded())).Scene.Objects[0].Model;
+        double[] white = [.. Enumerable.Repeat(1.0, 12)];
+        Assert.Equal([.. white, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, .. white], model.Mesh.Colours.Select(static one => Math.Round(one, 9)));
+        Assert.Equal((1, 0.25), (model.Materials["solid"].Opacity, model.Materials["glass"].Opacity));
+    }
+
     [Fact]
     public void Materials_OfOneNameAndOfTheNumbersOfOthers_AreAllDifferent()
     {
