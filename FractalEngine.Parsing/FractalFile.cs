@@ -77,11 +77,21 @@ public static class FractalFile
             throw new FractalEngineException($"the fractal can't be written as a file: {fault}");
         }
 
-        ImmutableArray<string> files = [.. fractal.BaseMeshes.Select((mesh, index) =>
-            BaseShapes.NameOf(mesh) is { } shape ? shape
-            : FileReference.Create(fullPath, fractal.BaseMeshPaths[index] is { } meshPath && File.Exists(meshPath)
-                ? meshPath
-                : MeshFile.WriteNew(BaseMeshPath(fullPath), mesh, materialsOf(index), companions)))];
-        return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, files));
+        ImmutableArray<BaseReference> bases = [.. Enumerable.Range(0, fractal.BaseMeshes.Length).Select(NameBase)];
+        return Encoding.UTF8.GetBytes(FractalWriter.Write(fractal.Description, bases));
+
+        BaseReference NameBase(int index)
+        {
+            var (mesh, meshPath) = (fractal.BaseMeshes[index], fractal.BaseMeshPaths[index]);
+            // The loader of fractals names material files by their full paths, those of meshes as these do.
+            var material = mesh is { MaterialLibraries: [var library], Groups: [{ Material: var name }, ..] }
+                && Path.IsPathFullyQualified(library) && File.Exists(library)
+                    ? new MaterialReference(FileReference.Create(fullPath, library), name, 0) : null;
+            return BaseShapes.NameOf(mesh, isPainted: material is not null) is { } shape ? new(shape, 0) { Material = material }
+                : meshPath is not null && File.Exists(meshPath)
+                    ? new(FileReference.Create(fullPath, meshPath), 0) { Material = material }
+                : new(FileReference.Create(
+                    fullPath, MeshFile.WriteNew(BaseMeshPath(fullPath), mesh, materialsOf(index), companions)), 0);
+        }
     }
 }

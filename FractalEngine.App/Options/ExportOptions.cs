@@ -13,7 +13,7 @@ internal sealed class ExportOptions
     private readonly Option<bool> _noMaterials = SharedOptions.Flag(
         "--no-materials", "Write no material file (.mtl) beside the mesh.");
 
-    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf, too.");
+    private readonly Option<bool> _flat = SharedOptions.Flag("--flat", "Write each instance by itself to .3mf and .glb, too.");
 
     private readonly Option<bool> _weld = SharedOptions.Flag(
         "--weld", "Join vertices that coincide, and leave out walls between solids that stand side by side.");
@@ -38,7 +38,32 @@ internal sealed class ExportOptions
         SharedOptions.AddAll(command, _noMaterials, _flat, _weld, _instances, _handed, _up, _unit, _height);
 
     /// <summary>Returns the export into a file.</summary>
-    public ExportJob JobOf(ParseResult result, string output) => new(output, !result.GetValue(_noMaterials), result.GetValue(_weld));
+    /// <exception cref="UsageException">An option has no effect on its format.</exception>
+    public ExportJob JobOf(ParseResult result, string output)
+    {
+        RequireEffect(result, output);
+        return new(output, !result.GetValue(_noMaterials), result.GetValue(_weld));
+    }
+
+    /// <summary>Requires no option that changes nothing in a format.</summary>
+    /// <param name="result">What is given.</param>
+    /// <param name="output">Name of the file, with its ending.</param>
+    /// <exception cref="UsageException">An option has no effect.</exception>
+    private void RequireEffect(ParseResult result, string output)
+    {
+        Option[] idle = Path.GetExtension(output).ToUpperInvariant() switch
+        {
+            ".HTML" => [_flat, _instances, _handed, _up, _unit, _height],
+            ".CSV" => [_weld],
+            _ => [],
+        };
+        if (idle.FirstOrDefault(option => result.GetResult(option) is { Implicit: false }) is { } given)
+        {
+            throw new UsageException(given == _weld
+                ? "--weld makes one mesh, and so one row of .csv: choose another ending, or leave it out"
+                : $"{given.Name} has no effect on .html, which keeps levels and coordinates as they are");
+        }
+    }
 
     /// <summary>Returns the settings of an export.</summary>
     /// <exception cref="UsageException">Two options contradict each other.</exception>

@@ -33,8 +33,10 @@ public static class BaseShapes
     }
 
     /// <summary>Returns the name of the shape that a mesh was found as; null for other meshes.</summary>
-    public static string? NameOf(Mesh mesh) =>
-        All.FirstOrDefault(shape => shape.Mesh.IsValueCreated && ReferenceEquals(shape.Mesh.Value, mesh)).Name;
+    /// <param name="mesh">The mesh.</param>
+    /// <param name="isPainted">Whether it may have got a material since, and texture coordinates for that.</param>
+    public static string? NameOf(Mesh mesh, bool isPainted = false) => All.FirstOrDefault(shape => shape.Mesh.IsValueCreated
+        && (ReferenceEquals(shape.Mesh.Value, mesh) || (isPainted && shape.Mesh.Value.Positions == mesh.Positions))).Name;
 
     private static Mesh Scale(Mesh mesh, double factor)
     {

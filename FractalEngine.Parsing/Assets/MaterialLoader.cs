@@ -72,7 +72,7 @@ internal sealed class MaterialLoader(
     /// <param name="reference">Names of the material and its file.</param>
     /// <param name="fullPath">Full path of the fractal file.</param>
     /// <exception cref="SourceException">The file can't be read, or does not declare the material.</exception>
-    public (string Name, Material Material) LoadNamed(SourceText source, MaterialReference reference, string fullPath)
+    public (string Name, Material Material, string FilePath) LoadNamed(SourceText source, MaterialReference reference, string fullPath)
     {
         var (path, displayName) = references.Resolve(source, reference.Offset, fullPath, reference.File);
         if (!_materialFiles.TryGetValue(path, out var file) || file is null)
@@ -86,7 +86,7 @@ internal sealed class MaterialLoader(
         var names = file.Materials.Keys;
         var name = reference.Name ?? (names.Count() == 1 ? names.First() : throw source.Error(
             reference.Offset, FormattableString.Invariant($"the file declares {names.Count()} materials: name one of them behind it")));
-        return file.Materials.ContainsKey(name) ? (name, ResolveMaterial(file, path, name)) : throw source.Error(
+        return file.Materials.ContainsKey(name) ? (name, ResolveMaterial(file, path, name), path) : throw source.Error(
             reference.Offset, $"the file declares no material '{name}'{NameSuggestion.Ask(name, names)}");
     }
 

@@ -236,7 +236,7 @@ internal sealed class ModelLoader
             return loaded;
         }
 
-        var (name, material) = _materials.LoadNamed(parsed.Source, named, fullPath);
+        var (name, material, filePath) = _materials.LoadNamed(parsed.Source, named, fullPath);
         var mesh = loaded.Fractal.BaseMesh;
         mesh = material.IsTextured && mesh.TextureIndices.IsEmpty ? mesh.WithBoxProjection() : mesh;
         ImmutableArray<MeshGroup> groups = mesh.Groups.IsEmpty
@@ -244,7 +244,7 @@ internal sealed class ModelLoader
             : ImmutableArray.CreateRange(mesh.Groups, group => group with { Material = name });
         return loaded with
         {
-            Fractal = new(new([]), mesh.WithGroups(groups, [])) { BaseMeshPath = loaded.Fractal.BaseMeshPath },
+            Fractal = new(new([]), mesh.WithGroups(groups, [filePath])) { BaseMeshPath = loaded.Fractal.BaseMeshPath },
             Materials = [ImmutableDictionary<string, Material>.Empty.Add(name, material)],
         };
     }

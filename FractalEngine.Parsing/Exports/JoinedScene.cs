@@ -17,6 +17,10 @@ public sealed class JoinedScene
     // Of the diagonal: what coincides differs by the rounding of coordinates.
     private const double RelativeTolerance = 1e-9;
 
+    // A diagonal may be too small to be multiplied, or too large for a number.
+    private const double MinTolerance = double.Epsilon;
+    private const double MaxTolerance = RelativeTolerance * double.MaxValue;
+
     private readonly List<double> _positions = [];
     private readonly List<int> _indices = [];
     private readonly List<int> _sides = [];
@@ -48,7 +52,7 @@ public sealed class JoinedScene
         var mesh = new Mesh([.. joined._positions], [.. joined._indices]).WithGroups([.. joined._groups], []);
         if (isWelded && mesh.FaceCount > 0 && mesh.UsedBounds.Diagonal is > 0 and var size)
         {
-            mesh = MeshWelding.Weld(mesh, [.. joined._sides], RelativeTolerance * size);
+            mesh = MeshWelding.Weld(mesh, [.. joined._sides], Math.Clamp(RelativeTolerance * size, MinTolerance, MaxTolerance));
         }
 
         var model = new MeshModel(mesh)

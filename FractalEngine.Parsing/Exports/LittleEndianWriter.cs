@@ -33,15 +33,16 @@ internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progr
     /// <summary>Writes a whole number of 32 bits.</summary>
     public void WriteUInt32(uint number) => BinaryPrimitives.WriteUInt32LittleEndian(Reserve(sizeof(uint)), number);
 
+    /// <summary>Requires a vector that floats can tell.</summary>
+    /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
+    public static Vector RequireSingle(Vector vector) => vector.MaxAbsComponent() <= float.MaxValue ? vector
+        : throw new FractalEngineException($"a coordinate is beyond the range of a float: {vector}");
+
     /// <summary>Writes a vector as three floats.</summary>
     /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
     public void WriteSingle(Vector vector)
     {
-        if (!(vector.MaxAbsComponent() <= float.MaxValue))
-        {
-            throw new FractalEngineException($"a coordinate is beyond the range of a float: {vector}");
-        }
-
+        RequireSingle(vector);
         var bytes = Reserve(3 * sizeof(float));
         BinaryPrimitives.WriteSingleLittleEndian(bytes, (float)vector.X);
         BinaryPrimitives.WriteSingleLittleEndian(bytes[sizeof(float)..], (float)vector.Y);

@@ -39,10 +39,9 @@ public sealed class FractalParser : RecursiveParser
             throw new ArgumentException("expected finite numbers", nameof(values));
         }
 
-        var parser = new FractalParser(source, null) { Overrides = values };
-        var parsed = parser.ParseFile();
+        var parsed = new FractalParser(source, null) { Overrides = values }.ParseFile();
         // Few files have choices, and these take no second time of note.
-        return parser.Bases.Parts.HasChoices ? ParseKeepingSums(source, values) : parsed;
+        return parsed.Description.HasChance ? ParseKeepingSums(source, values) : parsed;
     }
 
     /// <summary>Parses a file that may name another one with chance in it: all sums and sets stay as they are written then.</summary>

@@ -13,6 +13,7 @@ internal sealed class GltfMaterials(string path)
 {
     private readonly Dictionary<int, (Material Material, MaterialChannel? Texture)> _materials = [];
     private readonly Dictionary<int, MaterialTexture> _images = [];
+    private string[] _names = [];
 
     /// <summary>Those that were converted, by their names.</summary>
     public IReadOnlyDictionary<string, Material> ByName =>
@@ -33,17 +34,14 @@ internal sealed class GltfMaterials(string path)
 
     private (Material Material, MaterialChannel? Texture) Create(SharpGLTF.Schema2.Material source)
     {
-        var number = source.LogicalIndex.ToString(CultureInfo.InvariantCulture);
-        var name = string.IsNullOrWhiteSpace(source.Name) ? $"material {number}"
-            : source.LogicalParent.LogicalMaterials.Count(other => other.Name == source.Name) > 1 ? $"{source.Name} {number}"
-            : source.Name;
+        _names = _names.Length > 0 ? _names : NamesOf(source.LogicalParent.LogicalMaterials);
         var colour = source.FindChannel("BaseColor") ?? source.FindChannel("Diffuse");
         var factor = colour?.Color ?? System.Numerics.Vector4.One;
         var surface = source.FindChannel("MetallicRoughness");
         // Where an image says how rough and how metallic a place is, factors alone say nothing.
         var isEven = surface is { Texture: null } && !source.Unlit;
         var transmission = Factor(source, "Transmission", "TransmissionFactor", 0);
-        return (new(name)
+        return (new(_names[source.LogicalIndex])
         {
             Diffuse = new Colour(factor.X, factor.Y, factor.Z).FromLinear(),
             Texture = colour is { Texture: { } texture } ? Convert(texture) : null,
@@ -57,6 +55,28 @@ internal sealed class GltfMaterials(string path)
                 : Colour.Black,
             NormalTexture = source.FindChannel("Normal") is { Texture: { } normals } ? Convert(normals) : null,
         }, colour is { Texture: not null } ? colour : null);
+    }
+
+    /// <summary>Names all materials, those whose names are not unique by their numbers, which may be names of others, too.</summary>
+    private static string[] NamesOf(IReadOnlyList<SharpGLTF.Schema2.Material> materials)
+    {
+        var counts = materials.CountBy(static material => material.Name ?? "").ToDictionary();
+        var taken = counts.Where(static one => one.Value == 1).Select(static one => one.Key).ToHashSet();
+        return [.. materials.Select(material =>
+        {
+            var name = string.IsNullOrWhiteSpace(material.Name) ? "material" : material.Name;
+            if (name == material.Name && counts[name] == 1)
+            {
+                return name;
+            }
+
+            do
+            {
+                name = string.Create(CultureInfo.InvariantCulture, $"{name} {material.LogicalIndex}");
+            }
+            while (!taken.Add(name));
+            return name;
+        })];
     }
 
     private static double Factor(SharpGLTF.Schema2.Material source, string channel, string name, double missing) =>

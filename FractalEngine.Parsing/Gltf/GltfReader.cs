@@ -130,11 +130,21 @@ public static class GltfReader
             throw new InvalidDataException("expected an asset of version 2.0");
         }
 
-        if (document.RootElement.TryGetProperty("accessors", out var accessors) && accessors.ValueKind == JsonValueKind.Array
-            && accessors.EnumerateArray().Sum(static accessor => accessor.GetProperty("count").GetInt64())
-                > ParsingLimits.GltfCorners.Value)
+        if (document.RootElement.TryGetProperty("accessors", out var accessors) && accessors.ValueKind == JsonValueKind.Array)
         {
-            throw LimitError(fileName);
+            long[] counts = [.. accessors.EnumerateArray().Select(static accessor => accessor.GetProperty("count").GetInt64())];
+            if (counts.Sum() > ParsingLimits.GltfCorners.Value)
+            {
+                throw LimitError(fileName);
+            }
+
+            // What has no bytes is nothing but zeros, which a small file could ask for by the gigabyte.
+            var bytes = document.RootElement.TryGetProperty("buffers", out var buffers)
+                ? buffers.EnumerateArray().Sum(static buffer => buffer.GetProperty("byteLength").GetInt64()) : 0;
+            if (counts.Any(count => count > bytes))
+            {
+                throw new InvalidDataException("an accessor has more elements than the buffers have bytes");
+            }
         }
 
         if (document.RootElement.TryGetProperty("extensionsRequired", out var required) && required.ValueKind == JsonValueKind.Array

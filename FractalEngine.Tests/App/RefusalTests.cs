@@ -87,6 +87,17 @@ public sealed class RefusalTests : IDisposable
     [InlineData("info drop.sdo --from-up z", "drop.sdo is a scene: --from-handed, --from-up and --from-unit are for a mesh or fractal")]
     [InlineData("simulate drop.sdo --composition affine", "drop.sdo has no fractal, so --composition has no effect")]
     [InlineData("export cube.obj -o a.obj --depth 3", "cube.obj has no recursive fractal, so --depth has no effect")]
+    [InlineData("export cube.obj -o a.html --flat", "--flat has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.HTML --up y", "--up has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.html --unit 1mm --handed left",
+        "--handed has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.html --unit 2mm", "--unit has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.html --height 2mm",
+        "--height has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.html --instances 2",
+        "--instances has no effect on .html, which keeps levels and coordinates as they are")]
+    [InlineData("export cube.obj -o a.csv --weld",
+        "--weld makes one mesh, and so one row of .csv: choose another ending, or leave it out")]
     [InlineData("simulate drop.sdo --seconds 1 --every 61", "--every 61 is beyond the 60 steps, so nothing would be written")]
     [InlineData("generate icosphere -o a.obj --seed 1", "the mesh 'icosphere' has no random details, so --seed has no effect")]
     [InlineData("generate --seed 1 torus-knot -o a.obj", "the mesh 'torus-knot' has no random details, so --seed has no effect")]

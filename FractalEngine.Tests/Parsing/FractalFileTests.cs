@@ -4,7 +4,9 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Text;
 using FractalEngine.Tests.Parsing.Fdo.Writing;
 using FractalEngine.Tests.Support;
@@ -62,13 +64,8 @@ public sealed class FractalFileTests : IDisposable
         Assert.Equal(fractal, FractalFile.Read(_folder["a.fdo"]));
     }
 
-    // A mesh with a material of a fractal's file is no longer that of its own file.
-    public static TheoryData<string> FilesWithoutMaterials =>
-        [.. ((IEnumerable<object[]>)FractalWriterTests.AssetFiles).Select(static row => (string)row[0]).Where(
-            static file => !File.ReadAllText(Repository.Full(file)).Contains(" material \"", StringComparison.Ordinal))];
-
     [Theory]
-    [MemberData(nameof(FilesWithoutMaterials))]
+    [MemberData(nameof(FractalWriterTests.AssetFiles), MemberType = typeof(FractalWriterTests))]
     public void Write_OfAnAssetFractal_NamesItsMeshAndReadsBackEqual(string file)
     {
         CopyAssets();
@@ -77,11 +74,56 @@ public sealed class FractalFileTests : IDisposable
         FractalFile.Write(path, fractal);
         Assert.Equal([path], Directory.GetFiles(Path.GetDirectoryName(path)!));
         Assert.Equal(
-            fractal.BaseMeshPaths.Any(static mesh => mesh is not null),
+            fractal.BaseMeshPaths.Any(static mesh => mesh is not null)
+                || fractal.BaseMeshes.Any(static mesh => mesh.MaterialLibraries is [var library] && Path.IsPathFullyQualified(library)),
             File.ReadAllText(path).Contains("\"../../", StringComparison.Ordinal));
         var read = FractalFile.Read(path);
         Assert.Equal(fractal, read);
         Assert.Equal(fractal.BaseMeshPaths.ToArray(), read.BaseMeshPaths.ToArray());
+    }
+
+    [Fact]
+    public void Write_OfMaterialsOfTheFile_KeepsThem()
+    {
+        _folder.Write("m.mtl", "newmtl Oak\nKd 0.5 0.25 0\nmap_Kd oak.png\nnewmtl Leaf\nKd 0 1 0\n");
+        File.Copy(Repository.Full("assets/models/crate.png"), _folder["oak.png"]);
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        var path = _folder.Write("a.fdo", """
+            x. box material "m.mtl" "Oak"
+            y. "cube.obj" material "m.mtl" "Leaf"
+            <$>. x + [((2, 0, 0), #, #)] y + [((4, 0, 0), #, #)] box
+
+            """);
+        Directory.CreateDirectory(_folder["sub"]);
+        FractalFile.Write(_folder["sub/b.fdo"], FractalFile.Read(path));
+        Assert.Equal([_folder["sub/b.fdo"]], Directory.GetFiles(_folder["sub"]));
+        var options = new LoadOptions { AllowOutsideFiles = true };
+        var models = new[] { path, _folder["sub/b.fdo"] }.Select(
+            file => (FractalModel)AssetLoader.Load(file, options).Scene.Objects[0].Model).ToArray();
+        Assert.Equal(models[0].Fractal, models[1].Fractal);
+        Assert.Equal(3, models[0].MaterialsByMesh.Length);
+        for (var mesh = 0; mesh < 3; mesh++)
+        {
+            Assert.Equal(models[0].MaterialsByMesh[mesh].OrderBy(static one => one.Key), models[1].MaterialsByMesh[mesh]
+                .OrderBy(static one => one.Key));
+        }
+    }
+
+    /// <summary>What another file makes is no other structure than what the text says that names its parts.</summary>
+    [Theory]
+    [InlineData("z<x>. [a., b.] x\n<$>. z 3", "<$>. 1: [a.] q | 2: [b.] q")]
+    [InlineData("<$>. [a., b.] x", "<$>. [a.] q + [b., a.] q + q")]
+    [InlineData("<$>. x + [a.] ball", "<$>. q + x + x")]
+    [InlineData("<$>. x + [a.] ball", "<$>. [a.] (x + q + x) + q + x")]
+    [InlineData("<$>. [a., b.] x + ball", "<$>. 1: [a.] q + x | 1: [b., a.] q")]
+    [InlineData("z<x>. [a.] x\n<$>. z 2", "y. 1: x | 1: ball\nn. ball + [a., b.] x\n<$>. [#] n + n")]
+    public void Write_OfAFractalOfAnotherFile_ReadsBackEqual(string inner, string outer)
+    {
+        const string maps = "a. ((1, 0, 0), #, (0.5))\nb. ((0, 1, 0), (0, 0, 30), (0.5))\nx. box\n";
+        _folder.Write("inner.fdo", $"{maps}{inner}\n");
+        var fractal = FractalFile.Read(_folder.Write("outer.fdo", $"{maps}q. \"inner.fdo\"\n{outer}\n"));
+        FractalFile.Write(_folder["a.fdo"], fractal);
+        Assert.Equal(fractal, FractalFile.Read(_folder["a.fdo"]));
     }
 
     [Fact]

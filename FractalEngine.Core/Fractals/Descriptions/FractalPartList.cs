@@ -37,8 +37,10 @@ public sealed class FractalPartList(bool keepsSums = false)
     /// <param name="inner">Index of the part.</param>
     /// <param name="steps">The outermost first; without any, the part itself is meant.</param>
     /// <returns>Index of the part.</returns>
-    public int AddSteps(int inner, ImmutableArray<FractalStep> steps) =>
-        steps.IsEmpty ? inner : Add(new(new SteppedPart(inner, steps), null, null));
+    /// <remarks>Steps on steps are one part, as they are where a file has both.</remarks>
+    public int AddSteps(int inner, ImmutableArray<FractalStep> steps) => steps.IsEmpty ? inner
+        : _entries[inner].Part is SteppedPart below ? AddSteps(below.Inner, steps.AddRange(below.Steps))
+        : Add(new(new SteppedPart(inner, steps), null, null));
 
     /// <summary>Adds several parts at one place.</summary>
     /// <param name="terms">Indices of the parts, at least one.</param>
@@ -69,13 +71,9 @@ public sealed class FractalPartList(bool keepsSums = false)
     /// <exception cref="ArgumentException">There are more or fewer weights.</exception>
     public int AddChoice(ImmutableArray<int> alternatives, Choice choice, bool isOfBody = false)
     {
-        HasChoices = true;
         FractalRecursive one = new(alternatives[0], [.. alternatives.Select(RecursiveCall.ToPart)]) { Choice = choice };
         return Add(new(new RecursivePart([one], 0, 1), null, null) { CountsLevels = isOfBody && choice.IsByLevel });
     }
-
-    /// <summary>True where a choice was added.</summary>
-    public bool HasChoices { get; private set; }
 
     /// <summary>Adds a recursive, see <see cref="CreateRecursives"/>.</summary>
     /// <param name="recursives">The recursives of its group.</param>
@@ -96,10 +94,36 @@ public sealed class FractalPartList(bool keepsSums = false)
         var indices = Enumerable.Range(0, description.MeshCount).Select(partOfMesh).ToList();
         foreach (var part in description.Parts)
         {
-            indices.Add(Add(new(part.WithReferences(index => indices[index]), null, null)));
+            indices.Add(part switch
+            {
+                SteppedPart { Inner: var inner, Steps: var steps } => AddSteps(indices[inner], steps),
+                RecursivePart { IsSum: true, Recursives: [{ Calls: { IsEmpty: false } calls }] } => AddTerms(calls, indices),
+                _ => Add(new(part.WithReferences(index => indices[index]), null, null)),
+            });
         }
 
         return AddSteps(indices[^1], description.Steps);
+    }
+
+    /// <summary>
+    /// Adds the calls of a sum as terms, so that it is the same as if it had been written of what its base meshes stand for: calls of the
+    /// same part after each other are a set, unless that is all.
+    /// </summary>
+    private int AddTerms(ImmutableArray<RecursiveCall> calls, List<int> indices)
+    {
+        var terms = new List<(int Part, bool IsPlain)>();
+        var isOneTarget = calls.All(call => call.HasTargetOf(calls[0]));
+        for (var i = 0; i < calls.Length;)
+        {
+            RecursiveCall[] set = [.. calls.Skip(i).Take(isOneTarget && i == 0 ? 1 : MaxInlined)
+                .TakeWhile(call => call.HasTargetOf(calls[i]))];
+            var isPlain = set is [{ IsPlain: true }];
+            terms.Add((AddSteps(indices[set[0].Target], isPlain ? [] :
+                [new TransformationSet([.. set.Select(static call => call.Map)], [.. set.Select(static call => call.Colour)])]), isPlain));
+            i += set.Length;
+        }
+
+        return AddSum([.. terms.Select(static term => term.Part)], index => terms[index].IsPlain);
     }
 
     /// <summary>Makes the recursives of a group, which call themselves and each other in their bodies.</summary>

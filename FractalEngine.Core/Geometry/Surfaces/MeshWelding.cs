@@ -24,7 +24,7 @@ public static class MeshWelding
         ArgumentOutOfRangeException.ThrowIfNegativeOrZero(tolerance);
         ArgumentOutOfRangeException.ThrowIfNotEqual(sides.Length, mesh.FaceCount);
         var representatives = FindRepresentatives(mesh, tolerance);
-        var isDropped = FindDoubleSides(mesh, sides, representatives);
+        var isDropped = FindDoubleSides(mesh, sides, representatives, tolerance);
         var (positions, indices) = (new List<double>(), new List<int>());
         var numbers = new Dictionary<int, int>();
         var keptBefore = new int[mesh.FaceCount + 1];
@@ -83,12 +83,13 @@ public static class MeshWelding
     {
         var cells = new Dictionary<(long X, long Y, long Z), int>(mesh.VertexCount);
         var representatives = new int[mesh.VertexCount];
-        // What shares a cell is the same: its diagonal is the largest distance.
-        var perUnit = Math.Sqrt(3) / tolerance;
+        // In tolerances from a vertex, so that the numbers of cells fit also far from the origin. The reciprocal of a tiny one is infinite.
+        var origin = mesh.VertexCount == 0 ? Vector.Zero : mesh.Vertex(0) / tolerance;
         for (var vertex = 0; vertex < representatives.Length; vertex++)
         {
             var position = mesh.Vertex(vertex);
-            var (low, high) = (CellOf(position - (tolerance * Vector.One)), CellOf(position + (tolerance * Vector.One)));
+            var scaled = (position / tolerance) - origin;
+            var (low, high) = (CellOf(scaled - Vector.One), CellOf(scaled + Vector.One));
             representatives[vertex] = -1;
             for (var x = low.X; x <= high.X; x++)
             {
@@ -108,17 +109,21 @@ public static class MeshWelding
             if (representatives[vertex] < 0)
             {
                 representatives[vertex] = vertex;
-                cells.Add(CellOf(position), vertex);
+                cells.Add(CellOf(scaled), vertex);
             }
         }
 
         return representatives;
 
-        (long X, long Y, long Z) CellOf(Vector position) => (
-            (long)Math.Floor(position.X * perUnit), (long)Math.Floor(position.Y * perUnit), (long)Math.Floor(position.Z * perUnit));
+        // What shares a cell is the same: its diagonal is the largest distance.
+        static (long X, long Y, long Z) CellOf(Vector scaled)
+        {
+            var (x, y, z) = Math.Sqrt(3) * scaled;
+            return ((long)Math.Floor(x), (long)Math.Floor(y), (long)Math.Floor(z));
+        }
     }
 
-    private static bool[] FindDoubleSides(Mesh mesh, ReadOnlySpan<int> sides, int[] representatives)
+    private static bool[] FindDoubleSides(Mesh mesh, ReadOnlySpan<int> sides, int[] representatives, double tolerance)
     {
         var areas = new Vector[mesh.FaceCount];
         var corners = new HashSet<(int Side, int Vertex)>();
@@ -126,7 +131,9 @@ public static class MeshWelding
         for (var face = 0; face < mesh.FaceCount; face++)
         {
             var (a, b, c) = Corners(mesh, representatives, face);
-            areas[sides[face]] += Vector.Cross(mesh.Vertex(b) - mesh.Vertex(a), mesh.Vertex(c) - mesh.Vertex(a));
+            // In squares of the tolerance, which no size of a mesh takes beyond numbers.
+            areas[sides[face]] += Vector.Cross(
+                (mesh.Vertex(b) - mesh.Vertex(a)) / tolerance, (mesh.Vertex(c) - mesh.Vertex(a)) / tolerance);
             foreach (var vertex in (ReadOnlySpan<int>)[a, b, c])
             {
                 if (corners.Add((sides[face], vertex)))
@@ -153,12 +160,12 @@ public static class MeshWelding
                 continue;
             }
 
-            var tolerance = AreaTolerance * areas[side].Length();
-            isDropped[side] = (areas[side] - areas[other]).Length() <= tolerance;
-            if ((areas[side] + areas[other]).Length() <= tolerance)
+            var difference = AreaTolerance * areas[side].Length();
+            isDropped[side] = (areas[side] - areas[other]).Length() <= difference;
+            if ((areas[side] + areas[other]).Length() <= difference)
             {
+                // The one before stays known: further ones lie within, too.
                 (isDropped[side], isDropped[other]) = (true, true);
-                singles.Remove(keys[side]);
             }
         }
 

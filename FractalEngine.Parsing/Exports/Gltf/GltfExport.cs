@@ -29,14 +29,15 @@ public sealed class GltfExport : SceneExport
         var exported = ExportedScene.Of(scene, settings, frame);
         var document = new GltfDocument();
         var surfaces = new GltfSurfaces(document);
-        var skewed = exported.Parts.Sum(part => new GltfPart(document, surfaces, part).Add());
+        var skewed = exported.Parts.Sum(part => new GltfPart(document, surfaces, part, settings.IsFlat).Add());
         AddView(document, scene.Scene, frame);
         document.Write(stream, settings.Progress);
         return new(exported.Contents)
         {
             Losses =
             [
-                .. Tell(skewed, "{0} skewed instances have faces of their own, since instances of glTF have no shear"),
+                .. Tell(
+                    settings.IsFlat ? 0 : skewed, "{0} skewed instances have faces of their own, since instances of glTF have no shear"),
                 .. Tell(surfaces.LeftOutCount, "{0} textures are left out, since glTF has PNG and JPEG only"),
                 .. Tell(
                     SceneAmbient.Of(scene.Scene).IsDark || scene.Scene is { Sky: null, Lights.IsEmpty: true } ? 0 : 1,
@@ -109,7 +110,9 @@ public sealed class GltfExport : SceneExport
         document.AddNode(node);
     }
 
-    private static JsonObject Place(Matrix axes, Vector position) => new()
+    private static JsonObject Place(Matrix axes, Vector position) => PlaceAt(axes, LittleEndianWriter.RequireSingle(position));
+
+    private static JsonObject PlaceAt(Matrix axes, Vector position) => new()
     {
         ["matrix"] = new JsonArray(
             axes.V1.X, axes.V1.Y, axes.V1.Z, 0, axes.V2.X, axes.V2.Y, axes.V2.Z, 0, axes.V3.X, axes.V3.Y, axes.V3.Z, 0,

@@ -25,12 +25,18 @@ internal sealed class GltfPart
 
     private readonly GltfDocument _document;
     private readonly ExportedPart _part;
+    private readonly bool _isFlat;
     private readonly Group[] _groups;
 
     /// <summary>Prepares the mesh, with normals as they are drawn.</summary>
-    public GltfPart(GltfDocument document, GltfSurfaces surfaces, ExportedPart part)
+    /// <param name="document">Receives it.</param>
+    /// <param name="surfaces">Receives its materials.</param>
+    /// <param name="part">The mesh and its places.</param>
+    /// <param name="isFlat">Whether all instances have faces of their own, as skewed ones have.</param>
+    public GltfPart(GltfDocument document, GltfSurfaces surfaces, ExportedPart part, bool isFlat)
     {
         _document = document;
+        _isFlat = isFlat;
         _part = part;
         var mesh = NormalGenerator.Complete(part.Mesh, NormalGenerator.DefaultCreaseAngle);
         _groups = [.. part.Groups.Where(static group => group.FaceCount > 0).Select(group =>
@@ -72,7 +78,7 @@ internal sealed class GltfPart
         var skewed = counts[(int)Kind.Skewed];
         if (skewed > 0 && _groups.Length > 0)
         {
-            var places = _part.Instances.Where(static instance => KindOf(instance.Map.Linear) == Kind.Skewed);
+            var places = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == Kind.Skewed);
             var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(group, places, skewed, _part.Placed.HasTints))]);
             _document.AddNode(new() { ["name"] = _part.ObjectName, ["mesh"] = mesh });
         }
@@ -83,10 +89,14 @@ internal sealed class GltfPart
     private void AddInstances(Kind kind, long count)
     {
         var mirror = kind == Kind.Mirrored ? MirrorZ : Matrix.Identity;
-        var mesh = AddMesh([.. _groups.Select(group => AddPrimitive(group, [new(0, new(mirror, Vector.Zero), Tint.None)], 1))]);
-        var node = new JsonObject { ["name"] = _part.ObjectName, ["mesh"] = mesh };
-        var maps = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind)
-            .Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
+        var places = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind);
+        if (count == 1 && !_part.Placed.HasTints)
+        {
+            AddPlace(places.Single().Map);
+            return;
+        }
+
+        var maps = places.Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
         var attributes = new JsonObject
         {
             ["TRANSLATION"] = AddVectors(maps, count, static instance => instance.Map.Translation),
@@ -101,22 +111,46 @@ internal sealed class GltfPart
             }),
             ["SCALE"] = AddVectors(maps, count, static instance => ScaleOf(instance.Map.Linear)),
         };
-        if (_part.Placed.HasTints)
-        {
-            var group = _part.Groups.First(static group => group.FaceCount > 0).Material;
-            attributes["_COLOR_0"] = AddVectors(maps, count, instance => _part.ColourOf(group, instance.Tint).ToLinearVector());
-        }
-
         _document.Use("EXT_mesh_gpu_instancing", isRequired: true);
-        node["extensions"] = new JsonObject { ["EXT_mesh_gpu_instancing"] = new JsonObject { ["attributes"] = attributes } };
-        _document.AddNode(node);
+        // An instance has one colour, so that with colours of maps each material has a node of its own.
+        foreach (var groups in _part.Placed.HasTints ? _groups.Chunk(1) : [_groups])
+        {
+            var mesh = AddMesh([.. groups.Select(group => AddPrimitive(
+                group, [new(0, new(mirror, Vector.Zero), Tint.None)], 1, isTinted: false))]);
+            var own = (JsonObject)attributes.DeepClone();
+            if (_part.Placed.HasTints)
+            {
+                own["_COLOR_0"] = AddVectors(
+                    maps, count, instance => _part.ColourOf(groups[0].Name, instance.Tint).ToLinearVector());
+            }
+
+            _document.AddNode(new()
+            {
+                ["name"] = _part.ObjectName,
+                ["mesh"] = mesh,
+                ["extensions"] = new JsonObject { ["EXT_mesh_gpu_instancing"] = new JsonObject { ["attributes"] = own } },
+            });
+        }
+    }
+
+    /// <summary>Adds the only place of the mesh, which every program reads.</summary>
+    private void AddPlace(AffineMap map)
+    {
+        var ((x, y, z), at) = ((map.Linear.V1, map.Linear.V2, map.Linear.V3), LittleEndianWriter.RequireSingle(map.Translation));
+        IEnumerable<MeshInstance> once = [new(0, AffineMap.Identity, Tint.None)];
+        _document.AddNode(new()
+        {
+            ["name"] = _part.ObjectName,
+            ["mesh"] = AddMesh([.. _groups.Select(group => AddPrimitive(group, once, 1, isTinted: false))]),
+            ["matrix"] = new JsonArray(x.X, x.Y, x.Z, 0, y.X, y.Y, y.Z, 0, z.X, z.Y, z.Z, 0, at.X, at.Y, at.Z, 1),
+        });
     }
 
     private int AddMesh(JsonNode[] primitives) =>
         _document.Add("meshes", new() { ["name"] = _part.ObjectName, ["primitives"] = new JsonArray(primitives) });
 
-    /// <summary>Adds the faces of a group at some places, as one primitive.</summary>
-    private JsonObject AddPrimitive(Group group, IEnumerable<MeshInstance> places, long count, bool isTinted = false)
+    /// <summary>Adds the faces of a group at some places, as one primitive, perhaps with what maps mix into its colour.</summary>
+    private JsonObject AddPrimitive(Group group, IEnumerable<MeshInstance> places, long count, bool isTinted)
     {
         var vertices = group.Vertices;
         var total = count * vertices.All.Count;
@@ -125,7 +159,7 @@ internal sealed class GltfPart
         {
             for (var i = 0; i < vertices.All.Count; i++)
             {
-                var (x, y, z) = place.Map * vertices.PositionAt(i);
+                var (x, y, z) = LittleEndianWriter.RequireSingle(place.Map * vertices.PositionAt(i));
                 var position = new Vector((float)x, (float)y, (float)z);
                 (minimum, maximum) = (Vector.Min(minimum, position), Vector.Max(maximum, position));
             }
@@ -218,8 +252,13 @@ internal sealed class GltfPart
         GltfDocument.WriteFloat(writer, vector.Y);
     }
 
-    private static Kind KindOf(Matrix linear)
+    private Kind KindOf(Matrix linear)
     {
+        if (_isFlat)
+        {
+            return Kind.Skewed;
+        }
+
         var (x, y, z) = ScaleOf(linear);
         var isSkewed = !(Math.Abs(Vector.Dot(linear.V1, linear.V2)) <= MaxCosine * x * y
             && Math.Abs(Vector.Dot(linear.V2, linear.V3)) <= MaxCosine * y * z

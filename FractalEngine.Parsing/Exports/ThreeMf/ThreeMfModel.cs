@@ -94,7 +94,7 @@ internal sealed class ThreeMfModel
     {
         if (model is not FractalModel { Fractal: var fractal })
         {
-            return model.Mesh.FaceCount == 0 ? null : AddMesh(parts[0], model.Name, isMirrored);
+            return AddMesh(parts[0], model.Name, isMirrored);
         }
 
         if (fractal.Description is { IsInfinite: true } or { Composition: Composition.Componentwise })
@@ -106,7 +106,7 @@ internal sealed class ThreeMfModel
 
         var graph = new LevelGraph(fractal, MaxParts);
         var root = graph.Add(isMirrored);
-        var numbers = new List<int>();
+        var numbers = new List<int?>();
         foreach (var node in graph.Nodes)
         {
             if (node.MeshIndex is { } mesh)
@@ -115,15 +115,27 @@ internal sealed class ThreeMfModel
                 continue;
             }
 
-            numbers.Add(_objects.Count);
-            _objects.Add((null, false, [.. node.Children.Select(child => (numbers[child.Node], child.Map))]));
+            // The format knows no objects of nothing.
+            ImmutableArray<(int Object, AffineMap Map)> components =
+                [.. node.Children.Where(child => numbers[child.Node] is not null).Select(child => (numbers[child.Node]!.Value, child.Map))];
+            numbers.Add(components.IsEmpty ? null : _objects.Count);
+            if (!components.IsEmpty)
+            {
+                _objects.Add((null, false, components));
+            }
         }
 
         return root is { } top ? numbers[top] : null;
     }
 
-    private int AddMesh(ExportedPart part, string name, bool isMirrored)
+    /// <summary>Adds a mesh, or its mirror image; null where no face has three corners at different places.</summary>
+    private int? AddMesh(ExportedPart part, string name, bool isMirrored)
     {
+        if (Enumerable.Range(0, part.Mesh.FaceCount).All(face => part.Mesh.Face(face) is var (a, b, c) && (a == b || b == c || c == a)))
+        {
+            return null;
+        }
+
         if (_checked.Add(part.Mesh) && SurfaceEdges.Of(part.Mesh).FirstOpen is { } edge)
         {
             throw new FractalEngineException(

@@ -74,6 +74,11 @@ internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebL
         var samples = new List<(int Model, WebLevels[] Samples)>();
         try
         {
+            if (!double.IsFinite(number.To - number.From))
+            {
+                throw new FractalEngineException("it would go from end to end of all numbers");
+            }
+
             foreach (var path in paths)
             {
                 var loaded = Enumerable.Range(0, MaxSamples).Select(i => PartsAt(path, name, ValueAt(number, i))).ToArray();

@@ -46,15 +46,22 @@ public sealed class FractalWriter
     /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
     /// </exception>
     /// <remarks>Time and memory are proportional to the text, which has at most 16 MiB.</remarks>
-    public static string Write(FractalDescription description, params ImmutableArray<string> baseFiles)
+    public static string Write(FractalDescription description, params ImmutableArray<string> baseFiles) =>
+        Write(description, ImmutableArray.CreateRange(baseFiles, static file => new BaseReference(file, 0)));
+
+    /// <summary>Returns the text of a fractal file whose base meshes may have materials of the file.</summary>
+    /// <param name="description">What the fractal makes of base meshes, and its composition.</param>
+    /// <param name="bases">The base meshes, with names of files as strings would be.</param>
+    /// <exception cref="FractalEngineException">As there.</exception>
+    public static string Write(FractalDescription description, ImmutableArray<BaseReference> bases)
     {
-        foreach (var file in baseFiles)
+        foreach (var name in bases.SelectMany(static one => new[] { one.File, one.Material?.File, one.Material?.Name }).OfType<string>())
         {
-            FileReference.RequireQuotable(file);
+            FileReference.RequireQuotable(name);
         }
 
         RequireExpressible(description);
-        var text = new FractalWriter().WriteText(description, baseFiles);
+        var text = new FractalWriter().WriteText(description, bases);
         RequireLength(Encoding.UTF8.GetByteCount(text));
         RequireReadable(text);
         return text;
@@ -102,7 +109,7 @@ public sealed class FractalWriter
     internal static FractalEngineException Fault(ErrorKind kind, string fault, Exception? innerException = null) =>
         new(kind, $"the fractal can't be written as a file: {fault}", innerException);
 
-    private string WriteText(FractalDescription description, ImmutableArray<string> baseFiles)
+    private string WriteText(FractalDescription description, ImmutableArray<BaseReference> bases)
     {
         foreach (var part in description.AllParts().OfType<SteppedPart>())
         {
@@ -120,10 +127,11 @@ public sealed class FractalWriter
         WriteVectors("scale", "scales", form => form.Vectors(FractalSetForm.Scale));
         AppendLine(_vectors.Count > 0 ? "" : null);
         var names = new List<string>();
-        foreach (var file in baseFiles)
+        foreach (var (file, material) in bases.Select(static one => (one.File, one.Material)))
         {
             names.Add(NextName("x", ref _baseCount));
-            AppendLine(BaseShapes.TryFind(file, out _) ? $"{names[^1]}. {file}" : $"{names[^1]}. \"{file}\"");
+            var surface = material is null ? "" : $" material \"{material.File}\" \"{material.Name}\"";
+            AppendLine((BaseShapes.TryFind(file, out _) ? $"{names[^1]}. {file}" : $"{names[^1]}. \"{file}\"") + surface);
         }
 
         new FractalPartWriter(this, names).Write(description.Parts);

@@ -1,6 +1,8 @@
+using System.Collections.Immutable;
 using System.Globalization;
 using System.Text;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Exports.Csv;
@@ -45,6 +47,26 @@ public class CsvExportTests
             $"{CsvExport.Header}\n\"a,b\",,\"a,b.obj\",1,0,0,1,0,1,0,2,0,0,1,3,0.1,0.2,0.3\nmenger,0,mesh 0,", text,
             StringComparison.Ordinal);
         Assert.Equal(22, text.Count(static letter => letter == '\n'));
+    }
+
+    [Fact]
+    public void Write_OfMaterials_HasTheColourOfTheFirst()
+    {
+        var model = new MeshModel(Samples.Tetrahedron.WithGroups([new(0, 4, "", "", "red", 0)], []))
+        {
+            Materials = ImmutableDictionary<string, Material>.Empty.Add("red", new("red") { Diffuse = new(1, 0, 0) }),
+        };
+        Assert.Equal(["1", "0", "0"], Assert.Single(Rows(RenderScenes.Scene(new(), (model, Transformation.Identity, null))))[15..]);
+    }
+
+    [Fact]
+    public void Write_OfTheLargestInstances_HasEachWithItsMesh()
+    {
+        var fractal = Fractal.Of(Samples.Tetrahedron) + Fractal.Of(Samples.Triangle).Apply([Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)]);
+        var scene = RenderScenes.Scene(new(), (new FractalModel(fractal), Transformation.Identity, null));
+        var text = Encoding.UTF8.GetString(ExportedFile.Write(new CsvExport(), scene, new() { MaxInstances = 9 }));
+        Assert.Equal(1, text.Split(",mesh 0,").Length - 1);
+        Assert.Equal(2, text.Split(",mesh 1,").Length - 1);
     }
 
     private static string[][] Rows(LoadedScene scene)

@@ -120,6 +120,19 @@ public class FlatExportTests
         Assert.Empty(ExportedFile.Read(".ply", bytes).Colours);
     }
 
+    /// <summary>Colours of vertices and of the object are multiplied as light, as they are drawn.</summary>
+    [Fact]
+    public void Ply_OfColoursOfVertices_MultipliesLight()
+    {
+        var mesh = Samples.Triangle.WithColours([0.5, 0.5, 0.5, 1, 1, 1, 0, 0, 0]);
+        var read = ExportedFile.Read(".ply", ExportedFile.Write(
+            new PlyExport(), RenderScenes.Scene(new(), (RenderScenes.Model(mesh), Transformation.Identity, new(0.5, 1, 1)))));
+        // 0.2140 · 0.2140 of linear light is 0.0458, which is 0.2370 of sRGB.
+        Near.Equal(new Vector(0.2370, 0.5, 0.5), ColourOf(read, 0), 0.6 / 255);
+        Near.Equal(new Vector(0.5, 1, 1), ColourOf(read, 1), 0.6 / 255);
+        Assert.Equal(Vector.Zero, ColourOf(read, 2));
+    }
+
     [Fact]
     public void Ply_OfMaterials_HasAColourForEachCorner()
     {

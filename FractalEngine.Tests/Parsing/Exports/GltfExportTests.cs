@@ -99,6 +99,7 @@ public sealed class GltfExportTests : IDisposable
             c (0, 0, -5) # 60
             light directional (0, -1, 0) (1, 0.5, 0.5) 2
             light point (1, 2, 3) (1, 1, 1) 1 10
+            light spot (1, 2, 3) (0, -1, 0) 60 (1, 1, 1) 1 10
             light ambient (1, 1, 1) 0.5
             o "box.fdo" ((0, 0, 1), #, #) colour (0.5, 1, 1)
             """);
@@ -123,8 +124,123 @@ public sealed class GltfExportTests : IDisposable
         Assert.Equal([1.0, 2, -3], nodes[2][12..15]);
         var lights = json.GetProperty("extensions").GetProperty("KHR_lights_punctual").GetProperty("lights");
         Near.Equal(2 * Math.PI, lights[0].GetProperty("intensity").GetDouble(), 1e-12);
+        Near.Equal(Math.PI / 6, lights[2].GetProperty("spot").GetProperty("outerConeAngle").GetDouble(), 1e-12);
+        Near.Equal(
+            Math.PI / 3, json.GetProperty("cameras")[0].GetProperty("perspective").GetProperty("yfov").GetDouble(), 1e-12);
         // A tenth of the range of 10 is 1, where the light brings π.
         Near.Equal(Math.PI, lights[1].GetProperty("intensity").GetDouble(), 1e-12);
+    }
+
+    /// <summary>Maps mix colours into those of each material; what is skewed has them at its vertices, and so has all where flat.</summary>
+    [Theory]
+    [InlineData(false)]
+    [InlineData(true)]
+    public void ColoursOfMaps_MixWithEachMaterial(bool isFlat)
+    {
+        File.WriteAllText(_folder["m.mtl"], "newmtl A\nKd 1 0 0\nnewmtl B\nKd 0 1 0\n");
+        File.WriteAllText(_folder["m.obj"], """
+            mtllib m.mtl
+            v 0 0 0
+            v 1 0 0
+            v 0 1 0
+            v 0 0 1
+            usemtl A
+            f 1 2 3
+            usemtl B
+            f 1 3 4
+
+            """);
+        File.WriteAllText(_folder["a.fdo"], """
+            x. "m.obj"
+            skew.matrix (1, 0, 0) (0.5, 1, 0) (0, 0, 1) (6, 0, 0)
+            <$>. [#, ((3, 0, 0), #, #) colour (0, 0, 1) 1, (#, #, #) colour (0, 0, 1) 0.25 * skew.] x
+
+            """);
+        var summary = Export(AssetLoader.Load(_folder["a.fdo"]).Scene, new() { IsFlat = isFlat });
+        Assert.Equal(isFlat ? 0 : 1, summary.Losses.Length);
+        var json = Json();
+        Assert.Equal(isFlat, !json.TryGetProperty("extensionsRequired", out _));
+        // By the materials of the primitives: colours of instances, and those of vertices, each once.
+        var found = new List<(string Material, Vector Colour)>();
+        foreach (var node in json.GetProperty("nodes").EnumerateArray())
+        {
+            foreach (var primitive in json.GetProperty("meshes")[node.GetProperty("mesh").GetInt32()].GetProperty("primitives")
+                .EnumerateArray())
+            {
+                var material = json.GetProperty("materials")[primitive.GetProperty("material").GetInt32()].GetProperty("name").GetString()!;
+                var accessor = node.TryGetProperty("extensions", out var extensions)
+                    ? extensions.GetProperty("EXT_mesh_gpu_instancing").GetProperty("attributes").GetProperty("_COLOR_0")
+                    : primitive.GetProperty("attributes").GetProperty("COLOR_0");
+                found.AddRange(VectorsOf(json, accessor.GetInt32()).Distinct().Select(colour => (material, colour)));
+            }
+        }
+
+        Assert.Equal(
+            [("A", new(0, 0, 1)), ("A", new(0.75, 0, 0.25)), ("A", new(1, 0, 0)),
+             ("B", new(0, 0, 1)), ("B", new(0, 0.75, 0.25)), ("B", new(0, 1, 0))],
+            found.Distinct().OrderBy(static one => one.Material).ThenBy(static one => one.Colour.X + one.Colour.Y),
+            static ((string Material, Vector Colour) a, (string Material, Vector Colour) b) =>
+                a.Material == b.Material && Near.Difference(a.Colour, b.Colour) < Tolerance);
+    }
+
+    /// <summary>Corners have the same texture coordinates after a way through a format whose v points down.</summary>
+    [Fact]
+    public void TextureCoordinates_ReadBack_AreTheSame()
+    {
+        var model = (MeshModel)AssetLoader.Load(Repository.Full("assets/models/crate.obj")).Scene.Objects[0].Model;
+        Export(AssetLoader.Load(Repository.Full("assets/models/crate.obj")).Scene);
+        var read = MeshFile.Read(_folder["a.glb"]);
+        Assert.Equal(CornersOf(model.Mesh).Order(), CornersOf(read).Order());
+
+        static IEnumerable<(string Position, string Coordinate)> CornersOf(Mesh mesh) => mesh.VertexIndices.Zip(mesh.TextureIndices).Select(
+            corner => (mesh.Vertex(corner.First).ToString(), string.Create(
+                System.Globalization.CultureInfo.InvariantCulture,
+                $"{mesh.TextureCoordinates[2 * corner.Second]:F5} {mesh.TextureCoordinates[(2 * corner.Second) + 1]:F5}")));
+    }
+
+    /// <summary>Normals of instances with faces of their own stay on the side that the corners turn around, mirrored or not.</summary>
+    [Fact]
+    public void Normals_OfSkewedMirrors_PointOutward()
+    {
+        File.WriteAllText(_folder["a.fdo"], """
+            skew.matrix (1, 0, 0) (0.5, 1, 0) (0, 0, 1) (6, 0, 0)
+            twin.matrix (-1, 0, 0) (0.5, 1, 0) (0, 0, 1) (9, 0, 0)
+            <$>. [skew., twin.] box
+
+            """);
+        Export(AssetLoader.Load(_folder["a.fdo"]).Scene);
+        var mesh = MeshFile.Read(_folder["a.glb"]);
+        Assert.Equal(24, mesh.FaceCount);
+        for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
+        {
+            var (a, b, c) = mesh.Face(corner / 3);
+            var normal = mesh.Normals.AsSpan(3 * mesh.NormalIndices[corner], 3);
+            Assert.True(Vector.Dot(new(normal[0], normal[1], normal[2]), Vector.Cross(b - a, c - a)) > 0);
+        }
+    }
+
+    private List<Vector> VectorsOf(JsonElement json, int accessor)
+    {
+        var bytes = File.ReadAllBytes(_folder["a.glb"]);
+        var one = json.GetProperty("accessors")[accessor];
+        var start = 28 + (int)BitConverter.ToUInt32(bytes, 12)
+            + json.GetProperty("bufferViews")[one.GetProperty("bufferView").GetInt32()].GetProperty("byteOffset").GetInt32();
+        return [.. Enumerable.Range(0, one.GetProperty("count").GetInt32()).Select(i => new Vector(
+            BitConverter.ToSingle(bytes, start + (12 * i)), BitConverter.ToSingle(bytes, start + (12 * i) + 4),
+            BitConverter.ToSingle(bytes, start + (12 * i) + 8)))];
+    }
+
+    /// <summary>Positions of vertices, of instances and of the camera: none is written that a float can't tell.</summary>
+    [Theory]
+    [InlineData("v 1e300 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "o \"m.obj\" #")]
+    [InlineData("v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "o \"m.obj\" ((1e39, 0, 0), #, #)")]
+    [InlineData("v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "c (0, 0, 1e300) # 60\no \"m.obj\" #")]
+    public void Coordinates_BeyondFloats_AreRefused(string mesh, string scene)
+    {
+        File.WriteAllText(_folder["m.obj"], mesh);
+        File.WriteAllText(_folder["s.sdo"], scene + "\n");
+        Assert.StartsWith("a coordinate is beyond the range of a float: ", Assert.Throws<Core.FractalEngineException>(
+            () => Export(AssetLoader.Load(_folder["s.sdo"]).Scene, new() { UnitLength = 1e10 })).Message, StringComparison.Ordinal);
     }
 
     [Fact]

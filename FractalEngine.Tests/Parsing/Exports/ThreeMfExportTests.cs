@@ -96,6 +96,21 @@ public class ThreeMfExportTests
         Assert.Equal(["#0000FF", "#FFFFFF"], faces.Select(face => face.Colour).Distinct().Order());
     }
 
+    /// <summary>The format knows neither meshes without faces nor objects without components.</summary>
+    [Fact]
+    public void Write_OfNothing_HasNoObjects()
+    {
+        var needle = new Mesh([0, 0, 0, 1, 0, 0], [0, 1, 1, 0, 0, 0]);
+        var nothing = new FractalModel(Fractal.Of(needle).Apply([Samples.Move(1, 0, 0), Samples.Move(2, 0, 0)]));
+        var none = new FractalModel(Fractal.Of(Samples.Tetrahedron).Apply([]));
+        var scene = RenderScenes.Scene(
+            new(), (new MeshModel(needle), Transformation.Identity, null), (nothing, Transformation.Identity, null),
+            (none, Transformation.Identity, null), (RenderScenes.Model(Samples.Tetrahedron, "a.obj"), Transformation.Identity, null));
+        var bytes = ExportedFile.Write(new ThreeMfExport(), scene);
+        Assert.Single(ExportedFile.ReadModel(bytes).Descendants(), static element => element.Name.LocalName == "object");
+        Assert.Equal(4, ExportedFile.ReadThreeMf(bytes).Count);
+    }
+
     [Fact]
     public void Write_OfAnOpenMesh_NamesItAndAnEdge() => AssertRefused(
         "sail.obj is not closed, as .3mf files need meshes to be: an edge at (0.5, 0, 0) has no face beyond it",

@@ -431,6 +431,63 @@ public sealed class GltfReaderTests : IDisposable
         Assert.True(fault.IsLimitExceeded);
     }
 
+    /// <summary>An accessor without bytes is all zeros, a hundred million of which fit into a line of text.</summary>
+    [Fact]
+    public void Accessor_OfMoreElementsThanBytes_IsRefused()
+    {
+        var document = QuadDocument();
+        document["accessors"].Add(JsonNode.Parse("""{"componentType": 5126, "count": 49, "type": "VEC3"}"""));
+        Assert.Contains(
+            "an accessor has more elements than the buffers have bytes", Errors.MessageOf(() => Read(document.Embedded())),
+            StringComparison.Ordinal);
+        document["accessors"][1]!["count"] = 48;
+        Assert.Equal(4, Read(document.Embedded()).VertexCount);
+    }
+
+    /// <summary>Vertices of primitives without colours are white, whichever come first; alpha counts where it blends.</summary>
+    [Fact]
+    public void ColoursAndOpacity_AreThoseOfThePrimitivesThatHaveThem()
+    {
+        var document = QuadDocument();
+        var colours = document.Add("VEC3", 5126, 3, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0);
+        document["meshes"][0]!["primitives"] = JsonNode.Parse($$"""
+            [{"attributes": {"POSITION": 0}, "material": 0}, {"attributes": {"POSITION": 0, "COLOR_0": {{colours}} }, "material": 1},
+             {"attributes": {"POSITION": 0} }]
+            """);
+        const string surface = "\"pbrMetallicRoughness\": {\"baseColorFactor\": [1, 1, 1, 0.25]}";
+        document["materials"].Add(JsonNode.Parse($$"""{"name": "solid", {{surface}} }"""));
+        document["materials"].Add(JsonNode.Parse($$"""{"name": "glass", "alphaMode": "BLEND", {{surface}} }"""));
+        var model = (MeshModel)AssetLoader.Load(Write(document.Embedded())).Scene.Objects[0].Model;
+        double[] white = [.. Enumerable.Repeat(1.0, 12)];
+        Assert.Equal([.. white, 1, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, .. white], model.Mesh.Colours.Select(static one => Math.Round(one, 9)));
+        Assert.Equal((1, 0.25), (model.Materials["solid"].Opacity, model.Materials["glass"].Opacity));
+    }
+
+    [Fact]
+    public void Materials_OfOneNameAndOfTheNumbersOfOthers_AreAllDifferent()
+    {
+        var document = QuadDocument();
+        document["meshes"][0]!["primitives"] = new JsonArray();
+        string?[] names = ["A", "A", "A 1", null, "material 3", "material 3 3"];
+        foreach (var (i, name) in names.Index())
+        {
+            document["materials"].Add(new JsonObject
+            {
+                ["name"] = name, ["pbrMetallicRoughness"] = new JsonObject { ["baseColorFactor"] = new JsonArray(i / 8.0, 0, 0, 1) },
+            });
+            document["meshes"][0]!["primitives"]!.AsArray().Add(
+                new JsonObject { ["attributes"] = new JsonObject { ["POSITION"] = 0 }, ["material"] = i });
+        }
+
+        var model = (MeshModel)AssetLoader.Load(Write(document.Embedded())).Scene.Objects[0].Model;
+        Assert.Equal(
+            ["A 0", "A 1 1", "A 1", "material 3 3 3", "material 3", "material 3 3"],
+            model.Mesh.Groups.Select(static group => group.Material));
+        Assert.Equal(
+            Enumerable.Range(0, 6), model.Mesh.Groups.Select(
+                group => (int)Math.Round(8 * model.Materials[group.Material].Diffuse.ToLinear().Red)));
+    }
+
     [Fact]
     public void Bytes_ChangedAnywhere_AreReadOrRefused()
     {

@@ -54,6 +54,33 @@ public class WebExportTests
         Assert.Equal([0, 1, 0, 0, 1, 0, 0, 1], PageReader.Numbers(page["objects"][0].GetProperty("stops")));
     }
 
+    /// <summary>The winding says which side of a face is lit, whatever the file's normals say; a mirrored object is told.</summary>
+    [Fact]
+    public void Page_OfNormalsThatPointInward_TurnsThemOutward()
+    {
+        using var folder = new TemporaryFolder();
+        folder.Write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 -1\nf 1//1 2//1 3//1\n");
+        var page = PageReader.Of(folder.Write("s.sdo", "o \"a.obj\" #\no \"a.obj\" ((2, 0, 0), #, (-1, 1, 1))\n"), new());
+        Assert.Equal([0, 0, 127, 0, 0, 0, 0, 0, 0], PageReader.Numbers(page["meshes"][0].GetProperty("normals")));
+        Assert.Equal([false, true], page["objects"].EnumerateArray().Select(static one => one.GetProperty("isMirrored").GetBoolean()));
+    }
+
+    /// <summary>Ends of sliders whose distance is no number make a number that is none, and no page without end.</summary>
+    [Theory]
+    [InlineData("1.7e308")]
+    [InlineData("0.5 from -1e308 to 1e308")]
+    public void Page_OfANumberOfAllSizes_HasNoSliderForIt(string number)
+    {
+        using var folder = new TemporaryFolder();
+        var path = folder.Write("a.fdo", $"a = {number}\nb = 0.5\n<$>. [((b, 0, 0), #, #)] box\n");
+        using var stream = new MemoryStream();
+        var summary = new WebExport().Write(AssetLoader.Load(path).Scene, new(), stream);
+        Assert.Equal(
+            "the number 'a' is no slider, since its fractal can't be made at each value: it would go from end to end of all numbers",
+            Assert.Single(summary.Losses));
+        Assert.Contains("1 slider", summary.Contents, StringComparison.Ordinal);
+    }
+
     [Fact]
     public void Page_OfAChoiceByLevel_ChoosesAsTheExpansionDoes()
     {
