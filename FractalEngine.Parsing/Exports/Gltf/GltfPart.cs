@@ -89,14 +89,27 @@ internal sealed class GltfPart
     private void AddInstances(Kind kind, long count)
     {
         var mirror = kind == Kind.Mirrored ? MirrorZ : Matrix.Identity;
-        var places = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind);
+        IEnumerable<MeshInstance> once = [new(0, new(mirror, Vector.Zero), Tint.None)];
+        var maps = _part.Instances.Where(instance => KindOf(instance.Map.Linear) == kind)
+            .Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
         if (count == 1 && !_part.Placed.HasTints)
         {
-            AddPlace(places.Single().Map);
+            // Programs without the extension read it, too.
+            var ((x, y, z), at) = (maps.Single().Map.Linear, LittleEndianWriter.RequireSingle(maps.Single().Map.Translation));
+            var only = new JsonObject
+            {
+                ["name"] = _part.ObjectName,
+                ["mesh"] = AddMesh([.. _groups.Select(group => AddPrimitive(group, once, 1, isTinted: false))]),
+            };
+            if (maps.Single().Map != AffineMap.Identity)
+            {
+                only["matrix"] = new JsonArray(x.X, x.Y, x.Z, 0, y.X, y.Y, y.Z, 0, z.X, z.Y, z.Z, 0, at.X, at.Y, at.Z, 1);
+            }
+
+            _document.AddNode(only);
             return;
         }
 
-        var maps = places.Select(instance => instance with { Map = new(instance.Map.Linear * mirror, instance.Map.Translation) });
         var attributes = new JsonObject
         {
             ["TRANSLATION"] = AddVectors(maps, count, static instance => instance.Map.Translation),
@@ -115,8 +128,7 @@ internal sealed class GltfPart
         // An instance has one colour, so that with colours of maps each material has a node of its own.
         foreach (var groups in _part.Placed.HasTints ? _groups.Chunk(1) : [_groups])
         {
-            var mesh = AddMesh([.. groups.Select(group => AddPrimitive(
-                group, [new(0, new(mirror, Vector.Zero), Tint.None)], 1, isTinted: false))]);
+            var mesh = AddMesh([.. groups.Select(group => AddPrimitive(group, once, 1, isTinted: false))]);
             var own = (JsonObject)attributes.DeepClone();
             if (_part.Placed.HasTints)
             {
@@ -131,19 +143,6 @@ internal sealed class GltfPart
                 ["extensions"] = new JsonObject { ["EXT_mesh_gpu_instancing"] = new JsonObject { ["attributes"] = own } },
             });
         }
-    }
-
-    /// <summary>Adds the only place of the mesh, which every program reads.</summary>
-    private void AddPlace(AffineMap map)
-    {
-        var ((x, y, z), at) = ((map.Linear.V1, map.Linear.V2, map.Linear.V3), LittleEndianWriter.RequireSingle(map.Translation));
-        IEnumerable<MeshInstance> once = [new(0, AffineMap.Identity, Tint.None)];
-        _document.AddNode(new()
-        {
-            ["name"] = _part.ObjectName,
-            ["mesh"] = AddMesh([.. _groups.Select(group => AddPrimitive(group, once, 1, isTinted: false))]),
-            ["matrix"] = new JsonArray(x.X, x.Y, x.Z, 0, y.X, y.Y, y.Z, 0, z.X, z.Y, z.Z, 0, at.X, at.Y, at.Z, 1),
-        });
     }
 
     private int AddMesh(JsonNode[] primitives) =>
