@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs all tests; `./test.sh soak` runs those with long counts, and then the tests against 50 mutants of the day. Further arguments go
-# to `dotnet test`.
+# Runs all tests; `./test.sh soak` runs those with long counts, opens exported files in other programs, and then runs the tests against
+# 50 mutants of the day. Further arguments go to `dotnet test`.
 # The last line is "N passed, N failed, N skipped", below what was skipped and why. A skip fails the run where installed packages
 # would have run the test; `--allow-skips` is for those who can't have them.
 # `./test.sh mutants [--sample N] [--seed S] [--in FOLDER] [--only ID[,ID]] [--faults FILE]` says which small faults in the product
@@ -44,6 +44,10 @@ results="$(mktemp -d)"
 trap 'rm -rf "$results"' EXIT
 run_tests "$results" "$filter" "$@"
 if [ -n "$soak" ] && [ $# = 0 ]; then
+    # Exported files in programs that are not the engine.
+    for check in check-exports check-web-export; do
+        "$root/eng/$check.sh" || failed=$((failed + 1))
+    done
     # Another draw each day. So few may miss the demanded share by chance, which is allowed for.
     run_mutants --sample 50 --seed "$(date +%F)" --allow-chance || failed=$((failed + 1))
 fi

@@ -31,6 +31,12 @@ missing_packages() {
     if [ "${1:-}" = soak ]; then
         command -v openbox >/dev/null || echo openbox
         command -v ffmpeg >/dev/null || echo ffmpeg
+        # What exported files are opened with.
+        command -v chromium >/dev/null || echo chromium
+        command -v assimp >/dev/null || echo assimp-utils
+        command -v admesh >/dev/null || echo admesh
+        command -v g++ >/dev/null || echo g++
+        [ -d /usr/include/lib3mf ] || echo lib3mf-dev
     fi
     if [ "${1:-}" = plots ]; then
         command -v gnuplot >/dev/null || echo gnuplot-nox
