@@ -37,6 +37,7 @@ public sealed class FrameRenderer : IDisposable
     private Framebuffer? _gatheredTarget;
     private int _sampleCount;
     private int _meanCount;
+    private bool _isDisposed;
 
     /// <summary>Creates the framebuffer-independent resources of a context.</summary>
     /// <param name="context">Context to draw in. It must outlive this renderer.</param>
@@ -97,7 +98,7 @@ public sealed class FrameRenderer : IDisposable
             : throw new InvalidOperationException("nothing has been drawn yet");
         if (GatheredCount == 1)
         {
-            _context.MakeCurrent();
+            MakeCurrent();
             _gatheredTarget ??= new(
                 _context.Resources, "gathered frames", width, height,
                 KeepsLight ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Rgba16f);
@@ -151,7 +152,8 @@ public sealed class FrameRenderer : IDisposable
     private void DrawFrame(
         SceneRenderer? scene, View view, int width, int height, RenderSettings settings, View? nextView, (double X, double Y) offset)
     {
-        _context.MakeCurrent();
+        MakeCurrent();
+        scene?.MakeCurrent();
         _context.ApplySettings(settings);
         var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount), settings.KeepsLight);
         var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings)) with { Offset = offset };
@@ -216,7 +218,7 @@ public sealed class FrameRenderer : IDisposable
     /// <summary>Waits until the GPU has drawn everything, for measurements of time.</summary>
     public void Finish()
     {
-        _context.MakeCurrent();
+        MakeCurrent();
         GL.Finish();
     }
 
@@ -313,7 +315,17 @@ public sealed class FrameRenderer : IDisposable
     }
 
     /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>
-    public void Dispose() => GlObject.DisposeAll(_sceneTarget, _resolvedTarget, _gatheredTarget, _linesPass, _overlayPass, _imagePass);
+    public void Dispose()
+    {
+        _isDisposed = true;
+        GlObject.DisposeAll(_sceneTarget, _resolvedTarget, _gatheredTarget, _linesPass, _overlayPass, _imagePass);
+    }
+
+    private void MakeCurrent()
+    {
+        ObjectDisposedException.ThrowIf(_isDisposed, this);
+        _context.MakeCurrent();
+    }
 
     /// <summary>Fills the frame with the background. Its sRGB values are written unchanged, so that the background is exact.</summary>
     /// <param name="background">Colour of the background.</param>
@@ -388,7 +400,7 @@ public sealed class FrameRenderer : IDisposable
             throw new ArgumentException("expected an image of the size of the frame", nameof(layer));
         }
 
-        _context.MakeCurrent();
+        MakeCurrent();
         if (GatheredCount > 1)
         {
             _resolvedTarget.Bind();

@@ -22,6 +22,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly DerivedCulling _effectiveCulling = new(EffectiveCulling.Of);
     private BoundingBox? _bounds;
     private bool _hasMoved;
+    private bool _isDisposed;
     private IReadOnlyList<SphereInstance> _spheres = [];
     private RedundancyCounts _frameUploads;
     private RedundancyCounts _frameStateChanges;
@@ -116,7 +117,7 @@ public sealed class SceneRenderer : IDisposable
     /// </exception>
     public void Update(DrawableScene scene)
     {
-        Context.MakeCurrent();
+        MakeCurrent();
         _buffers.Upload(scene);
         _objectsPass.SetScene(scene);
         Scene = scene;
@@ -133,7 +134,7 @@ public sealed class SceneRenderer : IDisposable
     /// </exception>
     public void Replace(DrawableScene scene)
     {
-        Context.MakeCurrent();
+        MakeCurrent();
         var transforms = new ObjectTransforms(scene);
         var objectsPass = new ObjectsPass(Context, scene, _buffers, transforms);
         Gl.GlObject.DisposeOnFailure(objectsPass, () => _buffers.Upload(scene));
@@ -199,13 +200,25 @@ public sealed class SceneRenderer : IDisposable
     /// <param name="settings">Culling and other optimisations.</param>
     public void Cull(View view, int width, int height, RenderSettings settings)
     {
-        Context.MakeCurrent();
+        MakeCurrent();
         Context.ApplySettings(settings);
         CullFrame(FrameView.Create(view, width, height, ClipPlanes(view, width, height, settings)), settings);
     }
 
     /// <summary>Deletes the scene's buffers and shaders. Harmless when repeated.</summary>
-    public void Dispose() => Gl.GlObject.DisposeAll(_buffers, _objectsPass);
+    public void Dispose()
+    {
+        _isDisposed = true;
+        Gl.GlObject.DisposeAll(_buffers, _objectsPass);
+    }
+
+    /// <summary>Makes the context current, as whatever calls GL must do first.</summary>
+    /// <exception cref="ObjectDisposedException">The renderer or its context was disposed.</exception>
+    internal void MakeCurrent()
+    {
+        ObjectDisposedException.ThrowIf(_isDisposed, this);
+        Context.MakeCurrent();
+    }
 
     /// <summary>Draws the depth maps of the lights, where they are not up to date. Binds a framebuffer of its own.</summary>
     /// <param name="frame">View of the frame.</param>

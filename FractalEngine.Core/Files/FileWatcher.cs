@@ -52,11 +52,13 @@ public sealed class FileWatcher : IDisposable
 
     /// <summary>Watches these files from now on, and no others.</summary>
     /// <param name="files">Full paths of files and folders, with their stamps before they were read.</param>
+    /// <exception cref="ObjectDisposedException">The watcher was disposed.</exception>
     public void Watch(ImmutableDictionary<string, FileStamp> files)
     {
         ArgumentNullException.ThrowIfNull(files);
         lock (_lock)
         {
+            ObjectDisposedException.ThrowIf(_isDisposed, this);
             _loaded = files;
             _seen = files;
             _isReported = false;

@@ -36,7 +36,11 @@ public sealed class LowPriorityScheduler : TaskScheduler, IDisposable
     public void Dispose() => _tasks.CompleteAdding();
 
     /// <inheritdoc/>
-    protected override void QueueTask(Task task) => _tasks.Add(task);
+    protected override void QueueTask(Task task)
+    {
+        ObjectDisposedException.ThrowIf(_tasks.IsAddingCompleted, this);
+        _tasks.Add(task);
+    }
 
     /// <inheritdoc/>
     protected override bool TryExecuteTaskInline(Task task, bool taskWasPreviouslyQueued) =>

@@ -34,6 +34,6 @@ public sealed record ExportSettings
     /// <summary>Told the written part of the file, from 0 to 1, where its format knows how much there will be; null for nobody.</summary>
     public IProgress<double>? Progress { get; init; }
 
-    /// <summary>Ends the export between two instances.</summary>
+    /// <summary>Ends the export between two instances, or before a file of levels is written.</summary>
     public CancellationToken Cancellation { get; init; }
 }

@@ -1,6 +1,7 @@
 using System.Buffers;
 using System.Runtime.ExceptionServices;
 using System.Text;
+using FractalEngine.Core;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
@@ -99,7 +100,8 @@ public sealed class ObjReader
     private ParsedObj? TryRead()
     {
         Workers.Run(_threadCount, isCaller => ReadBlocks(isCaller ? _progress : null));
-        if (_failure is not null && (_isBinary || IsRestOfEncoding()))
+        // What the caller's progress throws says nothing about the file.
+        if (_failure is not null && (_failure is not FractalEngineException || _isBinary || IsRestOfEncoding()))
         {
             ExceptionDispatchInfo.Throw(_failure);
         }

@@ -134,12 +134,18 @@ public sealed class ScenePreparation
             var index = selectedIndices[completed];
             var name = _models[index].Name;
             Current = _models[index];
-            progress?.Report(new(name, (double)completed / selectedIndices.Length));
-            var placeholder = Scene.Models[index];
-            var prepared = ModelPreparation.Prepare(_models[index], _settings, _textures, _notices);
-            _prepared[index] = prepared;
-            Scene = Scene.WithModel(placeholder, prepared, [.. _textures.Textures], _notices.ToImmutable());
-            Current = null;
+            try
+            {
+                progress?.Report(new(name, (double)completed / selectedIndices.Length));
+                var prepared = ModelPreparation.Prepare(_models[index], _settings, _textures, _notices);
+                _prepared[index] = prepared;
+                Scene = Scene.WithModel(Scene.Models[index], prepared, [.. _textures.Textures], _notices.ToImmutable());
+            }
+            finally
+            {
+                Current = null;
+            }
+
             progress?.Report(new(name, (completed + 1.0) / selectedIndices.Length));
         }
 

@@ -34,6 +34,7 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
     private TraceRequest? _request;
     private bool _hasUpdate;
     private bool _holdsScene;
+    private bool _isDisposed;
 
     // Of the background: the last scene as it was prepared.
     private (TraceRequest Request, PathTracer Tracer)? _prepared;
@@ -61,8 +62,10 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
 
     /// <summary>Starts to trace a view, unless it is the one that is traced already.</summary>
     /// <param name="request">The view; null for none.</param>
+    /// <exception cref="ObjectDisposedException">There is a view, and the trace was disposed.</exception>
     public void Show(TraceRequest? request)
     {
+        ObjectDisposedException.ThrowIf(_isDisposed && request is not null, this);
         lock (_lock)
         {
             if (request == _request)
@@ -107,10 +110,11 @@ public sealed class ProgressiveTrace(int sampleCount, RenderSettings settings, A
         return Interlocked.Exchange(ref _hasUpdate, false);
     }
 
-    /// <summary>Ends the trace, without waiting for it.</summary>
+    /// <summary>Ends the trace, without waiting for it. Harmless when repeated.</summary>
     public void Dispose()
     {
-        Show(null);
+        _isDisposed = true;
+        Release();
         if (_scheduler is { } scheduler)
         {
             _task.ContinueWith(_ => scheduler.Dispose(), TaskScheduler.Default);

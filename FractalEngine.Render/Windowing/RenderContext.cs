@@ -85,13 +85,14 @@ public abstract class RenderContext : IDisposable
 
         MakeCurrent();
         _isDisposed = true;
-        foreach (var leak in Resources.DeleteAll())
+        var leaks = Resources.DeleteAll();
+        Window.Dispose();
+        GC.SuppressFinalize(this);
+        // Last, since the caller's report may throw.
+        foreach (var leak in leaks)
         {
             _reportLeak($"not disposed before its OpenGL context: {leak}");
         }
-
-        Window.Dispose();
-        GC.SuppressFinalize(this);
     }
 
     /// <summary>Switches the filters for redundant GL calls on or off.</summary>

@@ -13,11 +13,16 @@ internal sealed class AnimatedImage(string path, double framesPerSecond) : Anima
     public override string Name => path;
 
     /// <inheritdoc/>
-    public override void Add(PixelImage frame) => _animation.Add(frame);
+    public override void Add(PixelImage frame)
+    {
+        ThrowIfDisposed();
+        _animation.Add(frame);
+    }
 
     /// <inheritdoc/>
     public override void Complete()
     {
+        ThrowIfDisposed();
         if (_animation.FrameCount > 0)
         {
             AtomicFile.Write(path, _animation.Write);

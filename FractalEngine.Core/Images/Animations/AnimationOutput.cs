@@ -36,20 +36,32 @@ public abstract class AnimationOutput : IDisposable
     /// <summary>Paths of all files that are written or replaced.</summary>
     public virtual IEnumerable<string> Files => [Name];
 
+    /// <summary>True once nothing more may be added.</summary>
+    private protected bool IsDisposed { get; private set; }
+
     /// <summary>Adds a frame behind the others.</summary>
+    /// <exception cref="ObjectDisposedException">The output has ended.</exception>
     public abstract void Add(PixelImage frame);
 
     /// <summary>Adds a frame that is a file of its own, behind the others.</summary>
     /// <param name="write">Writes the file, in the format that the ending names.</param>
     /// <exception cref="NotSupportedException">The output is one file.</exception>
+    /// <exception cref="ObjectDisposedException">The output has ended.</exception>
     public virtual void AddFile(Action<Stream> write) => throw new NotSupportedException($"{Name} has no file for each frame");
 
     /// <summary>Passes over the next frame, if it is a file of its own that is there already.</summary>
     public virtual bool TrySkip() => false;
 
     /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
+    /// <exception cref="ObjectDisposedException">The output has ended.</exception>
     public abstract void Complete();
 
-    /// <summary>Ends the output. What is not complete then is deleted.</summary>
-    public virtual void Dispose() => GC.SuppressFinalize(this);
+    /// <summary>Ends the output. What is not complete then is deleted. Harmless when repeated.</summary>
+    public virtual void Dispose()
+    {
+        IsDisposed = true;
+        GC.SuppressFinalize(this);
+    }
+
+    private protected void ThrowIfDisposed() => ObjectDisposedException.ThrowIf(IsDisposed, this);
 }

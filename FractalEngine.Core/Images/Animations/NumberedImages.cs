@@ -26,6 +26,7 @@ internal sealed class NumberedImages(string path, int frameCount, int first = 1)
     /// <inheritdoc/>
     public override void AddFile(Action<Stream> write)
     {
+        ThrowIfDisposed();
         AtomicFile.Write(PathOf(_count + 1), write);
         _count++;
     }
@@ -55,9 +56,7 @@ internal sealed class NumberedImages(string path, int frameCount, int first = 1)
     }
 
     /// <inheritdoc/>
-    public override void Complete()
-    {
-    }
+    public override void Complete() => ThrowIfDisposed();
 
     private string PathOf(int number) => PathOf(path, number, _digits);
 

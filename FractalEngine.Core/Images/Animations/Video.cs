@@ -62,6 +62,7 @@ internal sealed class Video : AnimationOutput
     /// <exception cref="IOException">The encoder has failed.</exception>
     public override void Add(PixelImage frame)
     {
+        ThrowIfDisposed();
         try
         {
             PngWriter.Write(frame, _encoder.StandardInput.BaseStream);
@@ -76,6 +77,7 @@ internal sealed class Video : AnimationOutput
     /// <exception cref="IOException">The encoder has failed.</exception>
     public override void Complete()
     {
+        ThrowIfDisposed();
         _encoder.StandardInput.Close();
         _encoder.WaitForExit();
         if (_encoder.ExitCode != 0)
@@ -94,6 +96,11 @@ internal sealed class Video : AnimationOutput
     /// <inheritdoc/>
     public override void Dispose()
     {
+        if (IsDisposed)
+        {
+            return;
+        }
+
         if (!_isComplete && !_encoder.HasExited)
         {
             _encoder.Kill();

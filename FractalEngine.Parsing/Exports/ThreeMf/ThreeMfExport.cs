@@ -49,6 +49,7 @@ public sealed class ThreeMfExport : SceneExport
 
             void Add(string path, Action<Stream> write)
             {
+                settings.Cancellation.ThrowIfCancellationRequested();
                 var entry = archive.CreateEntry(path, CompressionLevel.SmallestSize);
                 entry.LastWriteTime = Timestamp;
                 using var part = entry.Open();

@@ -32,6 +32,7 @@ public sealed class WebExport : SceneExport
         var losses = new HashSet<string>();
         var data = new WebScene(scene, settings, losses);
         var page = WebPage.Assemble(data.Title, data.Write());
+        settings.Cancellation.ThrowIfCancellationRequested();
         stream.Write(page);
         return new(data.Describe()) { Losses = [.. losses] };
     }
