@@ -7,4 +7,10 @@ CultureInfo.DefaultThreadCurrentCulture = CultureInfo.CurrentCulture = CultureIn
 CultureInfo.DefaultThreadCurrentUICulture = CultureInfo.CurrentUICulture = CultureInfo.InvariantCulture;
 StandardStreams.Install();
 InterruptSignal.EndProcessOtherwise();
+if (ProcessLimits.Apply() is { } reason)
+{
+    Console.Error.WriteLine($"error: {reason}");
+    return ExitCode.OverLimit;
+}
+
 return CommandLine.Run(args);

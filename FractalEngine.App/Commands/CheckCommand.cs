@@ -1,4 +1,5 @@
 using System.CommandLine;
+using System.IO.Enumeration;
 using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.Parsing.Assets;
@@ -75,10 +76,34 @@ internal static class CheckCommand
             return [path];
         }
 
-        var files = Directory.EnumerateFiles(path, "*", SearchOption.AllDirectories)
+        var files = ListFiles(path)
             .Where(static file => Endings.Any(ending => file.EndsWith(ending, StringComparison.OrdinalIgnoreCase)))
             .Order(StringComparer.Ordinal)
             .ToArray();
         return files.Length > 0 ? files : throw new UsageException($"the folder {path} has no mesh, fractal or scene");
+    }
+
+    // Links to folders are not followed: two that lead to their own folder would be followed 2^40 times.
+    private static string[] ListFiles(string folder)
+    {
+        var options = new EnumerationOptions
+        {
+            RecurseSubdirectories = true, IgnoreInaccessible = false, AttributesToSkip = FileAttributes.None,
+        };
+        try
+        {
+            return
+            [
+                .. new FileSystemEnumerable<string>(folder, static (ref FileSystemEntry entry) => entry.ToSpecifiedFullPath(), options)
+                {
+                    ShouldIncludePredicate = static (ref FileSystemEntry entry) => !entry.IsDirectory,
+                    ShouldRecursePredicate = static (ref FileSystemEntry entry) => !entry.Attributes.HasFlag(FileAttributes.ReparsePoint),
+                },
+            ];
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw new SourceException(folder, $"the folder can't be read: {exception.Message}");
+        }
     }
 }

@@ -14,7 +14,10 @@ internal static class ExitCode
     /// </summary>
     public const int WrongUsage = 2;
 
-    /// <summary>The input is well-formed, but exceeds a documented limit, what the driver can do, or the machine's memory.</summary>
+    /// <summary>
+    /// The input is well-formed, but exceeds a documented limit, what the driver can do, or the machine's memory; or the system lets the
+    /// program open too few files.
+    /// </summary>
     public const int OverLimit = 3;
 
     /// <summary>There is no display, or no OpenGL on the display.</summary>

@@ -29,7 +29,7 @@ internal static class StandardInput
         }
 
         _isRead = true;
-        if (IsClosed())
+        if (StandardStreams.IsClosed(0))
         {
             throw new SourceException(name, "the standard input is closed");
         }
@@ -53,7 +53,7 @@ internal static class StandardInput
     /// <exception cref="SourceException">The text can't be read.</exception>
     /// <exception cref="UsageException">It is the standard input, and was read before.</exception>
     public static SourceText ReadOrFile(string path, long maxBytes) =>
-        IsNamedBy(path) ? Read(path, maxBytes) : SourceText.Read(path, path, maxBytes);
+        IsNamedBy(path) ? Read(path, maxBytes) : SourceText.Read(Path.GetFullPath(path), path, maxBytes);
 
     /// <summary>Refuses two names of the standard input before either is read.</summary>
     /// <exception cref="UsageException">Both are the standard input.</exception>
@@ -84,24 +84,4 @@ internal static class StandardInput
     /// <summary>Adds the text of the standard input to the options of a file that is named <c>-</c>.</summary>
     public static LoadOptions AddTo(LoadOptions options, string path) =>
         path == Name ? options with { Text = Read(Name, Parsing.Text.ParsingLimits.DescriptionBytes.Value) } : options;
-
-    /// <summary>
-    /// Tells whether the program was started without a standard input. The runtime has taken its number for a pipe of its own then, and
-    /// reading that would wait for ever. What a program is started with does not close on exec; all that the runtime opens does.
-    /// </summary>
-    private static bool IsClosed()
-    {
-        const string description = "/proc/self/fdinfo/0";
-        const long closeOnExec = 0x80000;
-        try
-        {
-            var flags = File.ReadLines(description).FirstOrDefault(static line => line.StartsWith("flags:", StringComparison.Ordinal));
-            return flags is not null && (Convert.ToInt64(flags["flags:".Length..].Trim(), 8) & closeOnExec) != 0;
-        }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FormatException)
-        {
-            // Only Linux tells. There a number without a file is closed.
-            return exception is FileNotFoundException && Directory.Exists("/proc/self/fdinfo");
-        }
-    }
 }

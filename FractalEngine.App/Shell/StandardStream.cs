@@ -19,8 +19,10 @@ internal sealed class StandardStream(Func<Stream> open, Action<Exception> report
             _target.Write(buffer);
             _target.Flush();
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or ObjectDisposedException)
+        catch (Exception exception)
+            when (exception is IOException or UnauthorizedAccessException or ObjectDisposedException or ArgumentOutOfRangeException)
         {
+            // The last is how the runtime reports a file that is too large for the system.
             report(exception);
         }
     }

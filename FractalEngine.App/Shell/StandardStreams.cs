@@ -12,7 +12,7 @@ internal static class StandardStreams
     public static void Install()
     {
         Console.SetOut(CreateWriter(OpenOutput()));
-        Console.SetError(CreateWriter(new StandardStream(Console.OpenStandardError, static _ => { })));
+        Console.SetError(CreateWriter(new StandardStream(() => Open(2, Console.OpenStandardError), static _ => { })));
     }
 
     /// <summary>Writes a line with numbers to the standard error, in the invariant culture.</summary>
@@ -20,8 +20,32 @@ internal static class StandardStreams
 
     /// <summary>Opens the standard output.</summary>
     /// <returns>A stream whose errors are an <see cref="IOException"/> that names the standard output.</returns>
-    public static Stream OpenOutput() => new StandardStream(Console.OpenStandardOutput, static exception =>
+    public static Stream OpenOutput() => new StandardStream(() => Open(1, Console.OpenStandardOutput), static exception =>
         throw new IOException($"the standard output can't be written: {exception.Message}", exception));
+
+    /// <summary>
+    /// Tells whether the program was started without a stream. The runtime has taken its number for a pipe of its own then: reading that
+    /// would wait for ever, and what is written is lost. What a program is started with does not close on exec; all that the runtime
+    /// opens does.
+    /// </summary>
+    /// <param name="number">0 for the standard input, 1 for the standard output, 2 for the standard error.</param>
+    public static bool IsClosed(int number)
+    {
+        const long closeOnExec = 0x80000;
+        try
+        {
+            var flags = File.ReadLines(FormattableString.Invariant($"/proc/self/fdinfo/{number}"))
+                .FirstOrDefault(static line => line.StartsWith("flags:", StringComparison.Ordinal));
+            return flags is not null && (Convert.ToInt64(flags["flags:".Length..].Trim(), 8) & closeOnExec) != 0;
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FormatException)
+        {
+            // Only Linux tells. There a number without a file is closed.
+            return exception is FileNotFoundException && Directory.Exists("/proc/self/fdinfo");
+        }
+    }
+
+    private static Stream Open(int number, Func<Stream> open) => IsClosed(number) ? throw new IOException("it is closed") : open();
 
     // The encoding of the console. That of UTF-8 would put a mark before the first message.
     private static StreamWriter CreateWriter(Stream stream)

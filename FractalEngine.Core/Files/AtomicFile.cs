@@ -80,7 +80,7 @@ public static class AtomicFile
             temporary = TemporaryFiles.NameFor(target);
             WriteTemporary(temporary, target, write, () => commit(() => File.Move(temporary, target, overwrite: true)));
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        catch (Exception exception) when (IsSystemError(exception))
         {
             throw WriteError(path, target, temporary, exception);
         }
@@ -115,7 +115,7 @@ public static class AtomicFile
             {
                 WriteTemporary(temporary, target, writeCompanion, () => FileExchange.Run(temporary, target, move));
             }
-            catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+            catch (Exception exception) when (IsSystemError(exception))
             {
                 throw WriteError(companion, target, temporary, exception);
             }
@@ -151,7 +151,7 @@ public static class AtomicFile
                 }
             });
         }
-        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        catch (Exception exception) when (IsSystemError(exception))
         {
             throw WriteError(path, target, temporary, exception);
         }
@@ -172,14 +172,22 @@ public static class AtomicFile
         return Directory.Exists(target) ? throw new IOException("it is a directory") : target;
     }
 
+    private static bool IsSystemError(Exception exception) =>
+        exception is IOException or UnauthorizedAccessException || IsTooLarge(exception);
+
+    /// <summary>Tells whether a file is larger than the system allows, which the runtime reports as it does a wrong argument.</summary>
+    private static bool IsTooLarge(Exception exception) =>
+        exception is ArgumentOutOfRangeException && exception.TargetSite?.DeclaringType == typeof(RandomAccess);
+
     /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>
     private static IOException WriteError(string path, string target, string temporary, Exception exception)
     {
         var reason = FindFileAmongFolders(target) is { } file
             ? $"{file} is a file, not a directory"
+            : IsTooLarge(exception) ? "it is larger than the system allows"
             : exception.Message.Replace(temporary, target, StringComparison.Ordinal);
         // The system's message may end in the path, which stands at the beginning.
-        var suffix = $" : '{target}'";
+        var suffix = $" : '{Path.GetFullPath(target)}'";
         reason = reason.EndsWith(suffix, StringComparison.Ordinal) ? reason[..^suffix.Length] : reason;
         return new IOException($"{path} can't be written: {reason}", exception);
     }

@@ -25,14 +25,27 @@ public sealed record FileStamp(long Length, DateTime LastWriteTime, DateTime Cre
                 file = file.ResolveLinkTarget(returnFinalTarget: true) as FileInfo ?? file;
             }
 
-            return file.Exists ? new(file.Length, file.LastWriteTimeUtc, file.CreationTimeUtc)
-                : Directory.Exists(file.FullName) ? new(0, file.LastWriteTimeUtc, file.CreationTimeUtc)
+            return file.Exists || Directory.Exists(file.FullName)
+                ? new(file.Exists ? file.Length : 0, TimeOf(() => file.LastWriteTimeUtc), TimeOf(() => file.CreationTimeUtc))
                 : Missing;
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or ArgumentException)
         {
             // What can't be examined can't be read either. The reader says why.
             return Missing;
+        }
+    }
+
+    // Some file systems keep times that the framework has no numbers for.
+    private static DateTime TimeOf(Func<DateTime> read)
+    {
+        try
+        {
+            return read();
+        }
+        catch (ArgumentOutOfRangeException)
+        {
+            return default;
         }
     }
 }

@@ -1,3 +1,4 @@
+using System.Diagnostics;
 using System.Runtime.InteropServices;
 using System.Text;
 
@@ -67,7 +68,8 @@ public static class FileTypes
             return Open();
         }
 
-        var deadline = DateTime.UtcNow + ReaderTimeout;
+        // The time of day may jump.
+        var waiting = Stopwatch.StartNew();
         var flags = OperatingSystem.IsMacOS() ? MacWriteWithoutWaiting : LinuxWriteWithoutWaiting;
         int descriptor;
         while ((descriptor = OpenFile(Encoding.UTF8.GetBytes(path + '\0'), flags)) < 0)
@@ -78,7 +80,7 @@ public static class FileTypes
                 return Open();
             }
 
-            if (DateTime.UtcNow > deadline)
+            if (waiting.Elapsed > ReaderTimeout)
             {
                 throw new IOException("it is a pipe that nothing reads");
             }

@@ -17,9 +17,10 @@ public sealed record WrittenGrammar(Mesh Mesh, long Bytes)
     /// <exception cref="FractalEngineException">
     /// The language can't express it, as with nearly flat maps, or it has too many faces.
     /// </exception>
+    /// <exception cref="IOException">The folder for temporary files can't be written.</exception>
     public static WrittenGrammar Create(MeshGrammar grammar, double length, long maxFaces)
     {
-        var folder = Directory.CreateTempSubdirectory("fractalengine");
+        var folder = CreateFolder();
         try
         {
             var path = Path.Combine(folder.FullName, "found.fdo");
@@ -29,6 +30,19 @@ public sealed record WrittenGrammar(Mesh Mesh, long Bytes)
         finally
         {
             folder.Delete(recursive: true);
+        }
+    }
+
+    private static DirectoryInfo CreateFolder()
+    {
+        try
+        {
+            return Directory.CreateTempSubdirectory("fractalengine");
+        }
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException)
+        {
+            throw new IOException(
+                $"{Path.GetTempPath()}, the folder for temporary files, can't be written: {exception.Message}", exception);
         }
     }
 }

@@ -48,8 +48,8 @@ public static class NewSceneFile
     public static Scene Relocate(LoadedFile file, Scene scene, string path)
     {
         var relocated = SceneRelocation.Relocate(scene, file.Path, path);
-        return SceneRelocation.FilesOf(relocated).Any(static file => file.IndexOfAny(['"', '\n', '\r']) >= 0)
-            ? throw new IOException("a scene can't refer to a file with a quote or a line break in its path")
+        return SceneRelocation.FilesOf(relocated).FirstOrDefault(static file => file.IndexOfAny(['"', '\n', '\r']) >= 0) is { } unnamed
+            ? throw new IOException($"{unnamed}: a scene can't refer to a file with a quote or a line break in its path")
             : relocated;
     }
 

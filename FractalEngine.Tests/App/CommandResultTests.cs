@@ -1,5 +1,6 @@
 using System.Numerics;
 using System.Text.Json;
+using FractalEngine.Core;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
@@ -214,7 +215,8 @@ public sealed class CommandResultTests : IDisposable
         File.Copy(_folder["cube.obj"], _folder[name]);
         var (exitCode, _, error) = Run("save", name, "--output", "named.sdo");
         Assert.Equal(
-            (2, "error: a scene can't refer to a file with a quote or a line break in its path"), (exitCode, error.Split('\n')[0]));
+            (2, $"error: {DisplayText.Escape(name)}: a scene can't refer to a file with a quote or a line break in its path"),
+            (exitCode, error.Split('\n')[0]));
         Assert.False(File.Exists(_folder["named.sdo"]));
     }
 

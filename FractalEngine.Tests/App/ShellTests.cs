@@ -82,6 +82,15 @@ public sealed class ShellTests : IDisposable
         Assert.StartsWith("-:1:1: error: ", RunWithInput("?", "check", "-").Error, StringComparison.Ordinal);
 
     [SkippableFact]
+    public void Check_OfAFolderWithLinksToItself_LooksOnce()
+    {
+        Elsewhere.SkipOnWindows("links need rights there");
+        Assert.Equal(
+            new AppResult(0, "sub/a.obj: ok\n", ""),
+            RunInShell("mkdir sub; cp cube.obj sub/a.obj; ln -s . sub/x; ln -s . sub/y; timeout 20 {0} check sub"));
+    }
+
+    [SkippableFact]
     public void Info_OfAClosedStandardInput_DoesNotWait()
     {
         Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "only Linux tells that it is closed");

@@ -47,6 +47,15 @@ public class ReferenceTests
     [Fact]
     public void Benchmarks_ReferToWhatTheyMeasure() => Assert.Equal(["Core", "Parsing", "Render"], Projects("Benchmarks").Order());
 
+    [Theory]
+    [InlineData("App")]
+    [InlineData("Core")]
+    [InlineData("Parsing")]
+    [InlineData("Render")]
+    public void Product_WaitsByNoTimeOfDay_WhichMayJump(string project) => Assert.All(
+        Directory.EnumerateFiles(Repository.Full($"FractalEngine.{project}"), "*.cs", SearchOption.AllDirectories),
+        file => Assert.DoesNotMatch(@"\bDateTime(Offset)?\.(Utc)?Now\b", File.ReadAllText(file)));
+
     // A process sets its limits once. The others are caches and the files to delete at the end, which change no result.
     [Fact]
     public void Core_HasNoStaticStateThatCanChange_ButLimitsAndCaches()

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Diagnostics;
 using FractalEngine.Core.Files;
 using FractalEngine.Tests.Support;
 
@@ -13,6 +14,25 @@ public sealed class FileWatcherTests : IDisposable
     {
         _watcher.Dispose();
         _folder.Dispose();
+    }
+
+    [SkippableFact]
+    public void Stamp_OfAFileFromAfterTheYear9999_IsThatOfAFile()
+    {
+        const string memory = "/dev/shm";
+        Elsewhere.SkipIf(!Directory.Exists(memory), "there is no file system that keeps such times");
+        var path = Path.Combine(memory, Path.GetRandomFileName());
+        try
+        {
+            File.WriteAllText(path, "1");
+            using var touch = Process.Start("touch", ["-d", "@99999999999999", path]);
+            touch.WaitForExit();
+            Assert.Equal(1, FileStamp.Of(path).Length);
+        }
+        finally
+        {
+            File.Delete(path);
+        }
     }
 
     [Fact]

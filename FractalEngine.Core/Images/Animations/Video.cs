@@ -29,7 +29,7 @@ internal sealed class Video : AnimationOutput
         _path = path;
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(path))!);
         // A name of its own, since the encoder replaces what it finds. It chooses the format by the ending.
-        _unfinishedPath = $"{Path.ChangeExtension(path, null)}.{Guid.NewGuid():N}.unfinished{Path.GetExtension(path)}";
+        _unfinishedPath = Path.Combine(Path.GetDirectoryName(path) ?? "", $"{Guid.NewGuid():N}.unfinished{Path.GetExtension(path)}");
         string[] arguments =
         [
             "-loglevel", "error", "-y", "-f", "image2pipe", "-c:v", "png",
@@ -39,7 +39,8 @@ internal sealed class Video : AnimationOutput
                 ? (string[])["-vf", $"pad=ceil(iw/2)*2:ceil(ih/2)*2,{ToBt709}", .. FormatArguments]
                 : path.EndsWith(".webm", StringComparison.OrdinalIgnoreCase) ? ["-vf", ToBt709, .. FormatArguments]
                 : [],
-            _unfinishedPath,
+            // A name with a colon would be a protocol, and one with a dash an option.
+            $"file:{_unfinishedPath}",
         ];
         var start = new ProcessStartInfo("ffmpeg", arguments) { RedirectStandardInput = true, RedirectStandardError = true };
         try

@@ -150,12 +150,17 @@ public sealed class AnimateCommandTests : DrawingCommandTests
     }
 
     /// <summary>The encoder itself is a large package, which only the long tests need; here another program takes its name.</summary>
-    [SkippableFact]
-    public void Animate_OfAVideo_GivesTheEncoderEachFrame()
+    [SkippableTheory]
+    [InlineData("a.mp4")]
+    [InlineData("-a:b.mp4")]
+    [InlineData(
+        "LLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLL"
+        + "LLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLL.mp4")]
+    public void Animate_OfAVideo_GivesTheEncoderEachFrame(string file)
     {
         Elsewhere.SkipOnWindows("there are no shell scripts");
         Display.Require();
-        Folder.Write("bin/ffmpeg", "#!/bin/sh\necho \"$@\" >arguments.txt\nfor last; do :; done\ncat >\"$last\"\n");
+        Folder.Write("bin/ffmpeg", "#!/bin/sh\necho \"$@\" >arguments.txt\nfor last; do :; done\ncat >\"${last#file:}\"\n");
         if (!OperatingSystem.IsWindows())
         {
             File.SetUnixFileMode(Folder["bin/ffmpeg"], UnixFileMode.UserRead | UnixFileMode.UserExecute);
@@ -164,11 +169,11 @@ public sealed class AnimateCommandTests : DrawingCommandTests
         var environment = new Dictionary<string, string?> { ["PATH"] = $"{Folder["bin"]}:{Environment.GetEnvironmentVariable("PATH")}" };
         var (exitCode, _, error) = AppProcess.Run(
             Folder.Path, environment,
-            "animate", "scene.sdo", "--turntable", "--output", "a.mp4", "--frames", "3", "--fps", "10", "--resolution", "33x21");
+            "animate", "scene.sdo", "--turntable", $"--output={file}", "--frames", "3", "--fps", "10", "--resolution", "33x21");
         Assert.True(exitCode == 0, error);
-        Assert.Equal(3, CountChunks("IEND", File.ReadAllBytes(Folder["a.mp4"])));
+        Assert.Equal(3, CountChunks("IEND", File.ReadAllBytes(Folder[file])));
         Assert.Matches(
-            @"^-loglevel error -y -f image2pipe -c:v png -framerate 10 -i - -vf \S+ -pix_fmt yuv420p .*a\.\w+\.unfinished\.mp4\n$",
+            @"^-loglevel error -y -f image2pipe -c:v png -framerate 10 -i - -vf \S+ -pix_fmt yuv420p .*file:\w+\.unfinished\.mp4\n$",
             File.ReadAllText(Folder["arguments.txt"]));
     }
 

@@ -113,7 +113,8 @@ public sealed class RecordedImageTests : IDisposable
     public void Animate_OfVideos_AsksTheEncoderAsRecorded()
     {
         Elsewhere.SkipOnWindows("there are no shell scripts");
-        const string script = "#!/bin/sh\ncat >/dev/null\necho \"$@\" >arguments.txt\nfor last; do :; done\necho video >\"$last\"\n";
+        const string script =
+            "#!/bin/sh\ncat >/dev/null\necho \"$@\" >arguments.txt\nfor last; do :; done\necho video >\"${last#file:}\"\n";
         _transcript.Folder.Write("bin/ffmpeg", script);
         _transcript.Folder.Write("broken/ffmpeg", "#!/bin/sh\ncat >/dev/null\necho 'no such\ncodec' >&2\nexit 3\n");
         string? before = Environment.GetEnvironmentVariable("PATH");

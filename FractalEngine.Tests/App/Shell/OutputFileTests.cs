@@ -128,6 +128,32 @@ public sealed class OutputFileTests : IDisposable
         Assert.Equal(12, File.ReadLines(_folder["copy.obj"]).Count(line => line.StartsWith('f')));
     }
 
+    [SkippableTheory]
+    [InlineData(
+        "ulimit -f 8; DOTNET_EnableWriteXorExecute=0 APP generate icosphere --output m.obj", 2,
+        "error: m.obj can't be written: it is larger than the system allows")]
+    [InlineData(
+        "ulimit -n 40; APP generate icosphere --output m.obj", 3, "error: the system lets the program open 40 files, and it needs ")]
+    [InlineData(
+        "TMPDIR=/missing APP approximate cube.obj --output m.fdo", 2,
+        "error: /missing/, the folder for temporary files, can't be written: ")]
+    [InlineData(
+        "f=$PWD/cube.obj; mkdir gone; cd gone; rmdir ../gone; APP query $f --points points.txt", 2,
+        "error: the current folder has been removed")]
+    [InlineData(
+        "APP info $(printf 'a\\377.obj')", 1,
+        "a\uFFFD.obj:1:1: error: file not found: a name that is not UTF-8 can't be opened")]
+    public void Command_WhereTheSystemRefuses_SaysWhatInOneLine(string command, int exitCode, string error)
+    {
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "the system's limits and messages are those of Linux");
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell(command.Replace("APP", $"dotnet exec '{app}'", StringComparison.Ordinal));
+        Assert.Equal((exitCode, ""), (result.ExitCode, result.Output));
+        Assert.StartsWith(error, result.Error, StringComparison.Ordinal);
+        Assert.Equal(1, result.Error.Count('\n'.Equals));
+        Assert.Empty(Directory.GetFiles(_folder.Path, "m.*"));
+    }
+
     [Theory]
     [InlineData("a\u001B[31m.obj", "a\\u001B[31m.obj:1:1: error: file not found")]
     [InlineData("a\u202Egpj.obj", "a\\u202Egpj.obj:1:1: error: file not found")]
@@ -142,11 +168,15 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("query cube.obj --wrong 2>FULL", 2, "")]
     [InlineData("count cube.obj >FULL", 2, "error: the standard output can't be written: ")]
     [InlineData("--help >FULL", 2, "error: the standard output can't be written: ")]
+    [InlineData("export cube.obj --output - <&- >&-", 2, "error: the standard output can't be written: it is closed")]
+    [InlineData("export cube.obj --output FULL.ply", 2, "error: full.ply can't be written: No space left on device\n")]
     [InlineData("simulate scene.sdo >FULL", 2, "error: the standard output can't be written: ")]
     public void Streams_ThatAreFullOrClosed_DoNotChangeTheRest(string command, int exitCode, string output)
     {
         // A node of its own instead of /dev/full: an error here must not harm the machine's.
-        Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mknod full c 1 7").ExitCode != 0, "this user can't make device nodes");
+        Elsewhere.SkipIf(
+            OperatingSystem.IsWindows() || Shell("mknod full c 1 7 && ln -s full full.ply").ExitCode != 0,
+            "this user can't make device nodes");
         _folder.Write("points.txt", "1.5 0.1 0.2\n");
         _folder.Write("scene.sdo", "p \"cube.obj\" # 0.5\n");
         var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
