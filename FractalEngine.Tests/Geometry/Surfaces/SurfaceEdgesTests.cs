@@ -15,7 +15,8 @@ public class SurfaceEdgesTests
         for (var round = 0; round < 300; round++)
         {
             // Few positions of many vertices: edges that many faces share, faces without area, and zeros of both signs.
-            var positions = Enumerable.Range(0, 3 * random.Next(1, 30)).Select(_ => random.Next(-1, 2) * (random.Next(2) * 2.0 - 1)).ToArray();
+            var positions = Enumerable.Range(0, 3 * random.Next(1, 30))
+                .Select(_ => random.Next(-1, 2) * (random.Next(2) * 2.0 - 1)).ToArray();
             var indices = Enumerable.Range(0, 3 * random.Next(0, 40)).Select(_ => random.Next(positions.Length / 3)).ToArray();
             var mesh = new Mesh([.. positions], [.. indices]);
             var edges = SurfaceEdges.Of(mesh);
