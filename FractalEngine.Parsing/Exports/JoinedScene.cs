@@ -10,7 +10,7 @@ namespace FractalEngine.Parsing.Exports;
 
 /// <summary>Makes a scene of one mesh out of all that a scene shows, for formats that want one closed surface.</summary>
 /// <remarks>
-/// Positions, faces and colours are kept, those of vertices and gradients excepted. Memory: some 100 bytes a face, and 300 more to weld.
+/// Positions, faces and colours are kept, those of vertices excepted. Memory: some 100 bytes a face, and 300 more to weld.
 /// </remarks>
 public sealed class JoinedScene
 {

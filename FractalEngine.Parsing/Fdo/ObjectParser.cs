@@ -119,7 +119,7 @@ public abstract class ObjectParser : MapSetParser
         }
 
         ThrowIf(from != first, cursor, first < double.PositiveInfinity
-            ? FormattableString.Invariant($"the levels of a choice follow each other: these begin with {first}")
+            ? FormattableString.Invariant($"the levels of a choice follow each other: expected {first} here, not {from}")
             : "the levels before have no end, so that nothing comes behind them");
         var last = from;
         if (rest.Rest.StartsWith("..", StringComparison.Ordinal))

@@ -40,6 +40,16 @@ public sealed class GltfExport : SceneExport
                     settings.IsFlat ? 0 : skewed, "{0} skewed instances have faces of their own, since instances of glTF have no shear"),
                 .. Tell(surfaces.LeftOutCount, "{0} textures are left out, since glTF has PNG and JPEG only"),
                 .. Tell(
+                    exported.Parts.SelectMany(static part => part.Placed.Model.Materials.Values).Distinct().Count(static one =>
+                        one.OpacityTexture is not null || (one.BumpTexture is not null && one.NormalTexture is null)),
+                    "images of opacity or heights are left out, in materials: {0}"),
+                .. Tell(
+                    exported.Parts.Any(static part => part.Placed.ShownGradient is { HasSurface: true }) ? 1 : 0,
+                    "a gradient changes colours in the file, but neither roughness nor glow"),
+                .. Tell(
+                    scene.Scene is { Camera: not null, Projection: Projection.Orthographic } ? 1 : 0,
+                    "the camera is not written, since it is orthographic"),
+                .. Tell(
                     SceneAmbient.Of(scene.Scene).IsDark || scene.Scene is { Sky: null, Lights.IsEmpty: true } ? 0 : 1,
                     "light from all around is not written"),
             ],

@@ -90,6 +90,29 @@ public sealed class GltfExportTests : IDisposable
     }
 
     [Fact]
+    public void WhatTheFormatLacks_IsTold()
+    {
+        File.Copy(Repository.Full("assets/models/crate.png"), _folder["crate.png"]);
+        File.WriteAllText(_folder["m.mtl"], "newmtl Leaf\nmap_d crate.png\n");
+        File.WriteAllText(_folder["leaf.fdo"], "<$>. box material \"m.mtl\"\n");
+        File.WriteAllText(_folder["row.fdo"], "<$>. [((1, 0, 0), #, #)^0..3] box\n");
+        File.WriteAllText(_folder["s.sdo"], """
+            c (0, 0, -5) # 60
+            projection orthographic 4
+            light directional (0, -1, 0) (1, 1, 1) 1
+            o "leaf.fdo" #
+            o "row.fdo" # gradient height "ember" glow 0 1
+            """);
+        Assert.Equal(
+            [
+                "images of opacity or heights are left out, in materials: 1",
+                "a gradient changes colours in the file, but neither roughness nor glow",
+                "the camera is not written, since it is orthographic",
+            ],
+            Export(AssetLoader.Load(_folder["s.sdo"]).Scene).Losses.ToArray());
+    }
+
+    [Fact]
     public void Scene_WithMaterialsCameraAndLights_KeepsThem()
     {
         File.Copy(Repository.Full("assets/models/crate.png"), _folder["crate.png"]);
