@@ -177,7 +177,7 @@ public static class AtomicFile
 
     /// <summary>Tells whether a file is larger than the system allows, which the runtime reports as it does a wrong argument.</summary>
     private static bool IsTooLarge(Exception exception) =>
-        exception is ArgumentOutOfRangeException && exception.TargetSite?.DeclaringType == typeof(RandomAccess);
+        exception is ArgumentOutOfRangeException && exception.StackTrace?.Contains(nameof(RandomAccess), StringComparison.Ordinal) == true;
 
     /// <summary>Describes an error for the user, who knows nothing of the temporary file.</summary>
     private static IOException WriteError(string path, string target, string temporary, Exception exception)
