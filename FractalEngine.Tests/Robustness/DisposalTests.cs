@@ -83,7 +83,7 @@ public sealed class DisposalTests : IDisposable
         Assert.Equal(files, Directory.GetFiles(_folder.Path));
         Assert.DoesNotContain(files, static file => Path.GetExtension(file) is ".apng" or ".mp4");
         Assert.DoesNotContain(OpenFiles.List(), file => file.StartsWith(_folder.Path, StringComparison.Ordinal));
-        Polling.WaitUntil(() => OpenFiles.CountThreads("low priority") == threadsBefore, "end of the threads");
+        Polling.WaitUntil(() => OpenFiles.CountThreads("low priority") <= threadsBefore, "end of the threads");
         if (_context is { } context)
         {
             context.MakeCurrent();
@@ -219,7 +219,7 @@ public sealed class DisposalTests : IDisposable
         if (type == "Video")
         {
             Skip.If(OperatingSystem.IsWindows(), "the stand-in for ffmpeg is a script");
-            var encoder = _folder.Write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\nexec cat >\"$last\"\n");
+            var encoder = _folder.Write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\nexec cat >\"${last#file:}\"\n");
             if (!OperatingSystem.IsWindows())
             {
                 File.SetUnixFileMode(encoder, UnixFileMode.UserRead | UnixFileMode.UserExecute);
