@@ -126,10 +126,12 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
         Parts = [.. Parts.Select(part => part.WithMaxDepth(depth))],
     };
 
-    /// <summary>Makes the same description moved as a whole, by one more level above all others.</summary>
+    /// <summary>
+    /// Makes the same description moved as a whole, by one more level above all others. Choices and ends by size stay as they are.
+    /// </summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
     public FractalDescription WithPlacement(Transformation placement) => Composition == Composition.Affine
-        ? this with { Steps = Steps.Insert(0, TransformationSet.Of(placement)) }
+        ? this with { Steps = Steps.Insert(0, new TransformationSet([placement]) { IsPlacement = true }) }
         : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
 
     /// <inheritdoc/>

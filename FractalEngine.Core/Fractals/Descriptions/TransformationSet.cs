@@ -47,6 +47,9 @@ public sealed class TransformationSet : FractalStep
     /// <summary>True where all maps were declared by position, rotation and scale.</summary>
     public bool HasTransformations => Transformations.Length == Maps.Length;
 
+    /// <summary>True where the set moves a fractal as a whole: neither choices nor sizes count its map.</summary>
+    internal bool IsPlacement { get; init; }
+
     /// <summary>True for the identity alone, in either composition.</summary>
     internal bool IsIdentity => Colours.IsEmpty && (
         HasTransformations ? Transformations is [{ IsIdentity: true }] : Maps is [var only] && only == AffineMap.Identity);
@@ -77,7 +80,7 @@ public sealed class TransformationSet : FractalStep
 
     /// <inheritdoc/>
     public override bool Equals(FractalStep? other) =>
-        other is TransformationSet set && Colours.AsSpan().SequenceEqual(set.Colours.AsSpan())
+        other is TransformationSet set && IsPlacement == set.IsPlacement && Colours.AsSpan().SequenceEqual(set.Colours.AsSpan())
         && Transformations.AsSpan().SequenceEqual(set.Transformations.AsSpan())
         && (HasTransformations ? set.HasTransformations : Maps.AsSpan().SequenceEqual(set.Maps.AsSpan()));
 

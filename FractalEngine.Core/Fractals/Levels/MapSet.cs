@@ -16,9 +16,8 @@ internal sealed class MapSet
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
     public MapSet(TransformationSet set)
         // Shared, since nothing writes into it: wide sets take much memory.
-        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!, ImmutableCollectionsMarshal.AsArray(set.Colours)!)
-    {
-    }
+        : this(ImmutableCollectionsMarshal.AsArray(set.Maps)!, ImmutableCollectionsMarshal.AsArray(set.Colours)!) =>
+        IsPlacement = set.IsPlacement;
 
     /// <summary>Computes the terms of some maps.</summary>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
@@ -47,6 +46,9 @@ internal sealed class MapSet
 
     /// <summary>True where each map is that of a call: it leads to a recursive of its own, and skips no level by an identity.</summary>
     public bool IsOfCalls { get; init; }
+
+    /// <summary>True where the map moves the fractal as a whole.</summary>
+    public bool IsPlacement { get; }
 
     /// <summary>Decides which one of the calls stands at a place; null where all do.</summary>
     public LevelPick? Pick { get; init; }
@@ -89,13 +91,13 @@ internal sealed class MapSet
 
     /// <summary>The way through one of the maps.</summary>
     public WrittenWay WayOf(int index) =>
-        (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0) || Pick is { DependsOnSize: true } ? WrittenWay.Empty
+        IsPlacement || (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0) || Pick is { DependsOnSize: true } ? WrittenWay.Empty
         : Pick is not null ? WrittenWay.Of(index)
         : Numbers.Length > 0 ? WrittenWay.Of(Numbers[index].Term, Numbers[index].Map)
         : WrittenWay.Of(0, index);
 
     /// <summary>How much smaller one of the maps makes things, see <see cref="StretchSize"/>.</summary>
-    public long SizeOf(int index) => (_sizes ??= Array.ConvertAll(Maps, static map => StretchSize.Of(map.Linear)))[index];
+    public long SizeOf(int index) => IsPlacement ? 0 : (_sizes ??= Array.ConvertAll(Maps, static map => StretchSize.Of(map.Linear)))[index];
 
     /// <summary>Number of bytes of the arrays.</summary>
     public long StorageBytes => Maps.Length * (_inverses is null ? 14 : 26) * sizeof(double);

@@ -135,7 +135,7 @@ internal sealed class EndingRounds
     private static double LargestOf(FractalStep step) => step switch
     {
         TransformationSet { Maps.IsEmpty: true } => 0,
-        TransformationSet set => set.Maps.Min(static map => StretchSize.Of(map.Linear)),
+        TransformationSet set => set.IsPlacement ? 0 : set.Maps.Min(static map => StretchSize.Of(map.Linear)),
         Repetition { Count: 0 } => 0,
         Repetition repetition when repetition.Round.Sum(LargestOf) is var once =>
             repetition.Count is { } count ? count * once : once < 0 ? double.NegativeInfinity : 0,
