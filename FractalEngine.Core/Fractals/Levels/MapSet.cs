@@ -91,7 +91,8 @@ internal sealed class MapSet
 
     /// <summary>The way through one of the maps.</summary>
     public WrittenWay WayOf(int index) =>
-        IsPlacement || (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0) || Pick is { DependsOnSize: true } ? WrittenWay.Empty
+        IsPlacement || Pick is { DependsOnSize: true } || (!IsOfCalls && Maps.Length == 1 && IdentityIndex == 0)
+            ? WrittenWay.Empty
         : Pick is not null ? WrittenWay.Of(index)
         : Numbers.Length > 0 ? WrittenWay.Of(Numbers[index].Term, Numbers[index].Map)
         : WrittenWay.Of(0, index);
