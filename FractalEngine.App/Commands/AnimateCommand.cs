@@ -6,6 +6,7 @@ using FractalEngine.App.Options;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.Core;
+using FractalEngine.Core.Images;
 using FractalEngine.Core.Images.Animations;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Simulation;
@@ -225,10 +226,15 @@ internal static class AnimateCommand
         using var interruption = new InterruptSignal();
         using var joined = AnimationOutput.Create(output, files.Count, framesPerSecond)
             ?? throw new UsageException($"--output '{output}' must end in {AnimationOutput.Endings}");
+        PixelImage? first = null;
         foreach (var file in files)
         {
             interruption.ThrowIfRequested();
-            joined.Add(ImageFile.Load(file));
+            var image = ImageFile.Load(file);
+            first ??= image;
+            joined.Add((image.Width, image.Height) == (first.Width, first.Height) ? image : throw new FractalEngineException(
+                FormattableString.Invariant(
+                    $"{file} has {image.Width}×{image.Height} pixels, and {files[0]} has {first.Width}×{first.Height}")));
         }
 
         Complete(joined, report, files.Count, 0);

@@ -164,7 +164,7 @@ public abstract class SceneObjectParser : LightParser
     {
         if (!ParseKeyword(cursor, "balls", out rest))
         {
-            shape = ParseKeyword(cursor, "mesh", out rest) ? BodyShape.Mesh : BodyShape.Capsule;
+            shape = ParseWord(cursor, "mesh", out rest) ? BodyShape.Mesh : BodyShape.Capsule;
             return shape.IsMesh || ParseWord(cursor, "capsule", out rest);
         }
 

@@ -9,7 +9,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.SceneQueries;
 
-/// <summary>Tests that an object whose fractal decides by places, sizes or levels decides alike wherever it stands, against its mesh.</summary>
+/// <summary>Tests that a fractal that decides by places, sizes or levels decides alike wherever it stands, against its mesh.</summary>
 public sealed class PlacedChoiceTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();

@@ -95,7 +95,10 @@ internal sealed class GltfPart
         if (count == 1 && !_part.Placed.HasTints)
         {
             // Programs without the extension read it, too.
-            var ((x, y, z), at) = (maps.Single().Map.Linear, LittleEndianWriter.RequireSingle(maps.Single().Map.Translation));
+            var (linear, at) = (maps.Single().Map.Linear, LittleEndianWriter.RequireSingle(maps.Single().Map.Translation));
+            var (x, y, z) = (
+                LittleEndianWriter.RequireSingle(linear.V1), LittleEndianWriter.RequireSingle(linear.V2),
+                LittleEndianWriter.RequireSingle(linear.V3));
             var only = new JsonObject
             {
                 ["name"] = _part.ObjectName,

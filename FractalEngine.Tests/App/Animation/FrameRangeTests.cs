@@ -1,4 +1,6 @@
 using FractalEngine.App.Shell;
+using FractalEngine.Core.Images;
+using FractalEngine.Render.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Animation;
@@ -61,6 +63,12 @@ public sealed class FrameRangeTests : DrawingCommandTests
         Folder.Write("f-0003.png", "");
         var (code, _, error) = Run("animate", "f.png", "--join", "--output", "x.apng");
         Assert.Equal((1, "error: f-0002.png is missing, and f-0003.png is there: make it first, with --resume\n"), (code, error));
+        Assert.False(File.Exists(Folder["x.apng"]));
+
+        new PixelImage(2, 1, new byte[8]).SavePng(Folder["g-0001.png"]);
+        new PixelImage(1, 3, new byte[12]).SavePng(Folder["g-0002.png"]);
+        (code, _, error) = Run("animate", "g.png", "--join", "--output", "x.apng");
+        Assert.Equal((1, "error: g-0002.png has 1×3 pixels, and g-0001.png has 2×1\n"), (code, error));
         Assert.False(File.Exists(Folder["x.apng"]));
     }
 

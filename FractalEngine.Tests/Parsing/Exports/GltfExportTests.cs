@@ -260,6 +260,7 @@ public sealed class GltfExportTests : IDisposable
     [InlineData("v 1e300 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "o \"m.obj\" #")]
     [InlineData("v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "o \"m.obj\" ((1e39, 0, 0), #, #)")]
     [InlineData("v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "c (0, 0, 1e300) # 60\no \"m.obj\" #")]
+    [InlineData("v 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n", "o \"m.obj\" (#, #, (1e30, 1e30, 1e30))")]
     public void Coordinates_BeyondFloats_AreRefused(string mesh, string scene)
     {
         File.WriteAllText(_folder["m.obj"], mesh);

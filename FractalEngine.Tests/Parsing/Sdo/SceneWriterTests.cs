@@ -181,6 +181,7 @@ public class SceneWriterTests
     [InlineData("p \"a.obj\" # 0.5 shape capsule")]
     [InlineData("p \"a.obj\" # 0.5 shape mesh")]
     [InlineData("p \"a.obj\" # 0.5 mass 1 shape mesh")]
+    [InlineData("p \"a.obj\" # 0.5 friction 0.5 shape mesh rotation locked")]
     [InlineData("p \"a.obj\" # 0.5 density 2.5 shape mesh")]
     [InlineData("p \"a.obj\" # 0.5 friction 0.5 shape balls 3 rotation locked")]
     [InlineData("p \"a.obj\" # 0.5 shape balls 1")]
