@@ -131,7 +131,7 @@ public sealed record FractalDescription(ImmutableArray<FractalStep> Steps, Compo
     /// </summary>
     /// <exception cref="InvalidOperationException">The composition is componentwise: an object's own matrix is affine in both.</exception>
     public FractalDescription WithPlacement(Transformation placement) => Composition == Composition.Affine
-        ? this with { Steps = Steps.Insert(0, new TransformationSet([placement]) { IsPlacement = true }) }
+        ? this with { Steps = Steps.Insert(0, new TransformationSet([placement]) { IsPlacement = HasChance || HasSizes }) }
         : throw new InvalidOperationException("a placement is no level of a fractal that is composed componentwise");
 
     /// <inheritdoc/>
