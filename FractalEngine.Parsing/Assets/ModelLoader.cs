@@ -26,7 +26,7 @@ internal sealed class ModelLoader
     private readonly AssetCache? _cache;
     private readonly FileReferenceResolver _references;
     private readonly MaterialLoader _materials;
-    
+
     // By full paths, with and without instances.
     private readonly Dictionary<(string Path, bool KeepsInstances), MeshContents> _meshes = [];
 
