@@ -69,6 +69,9 @@ public sealed record Mesh
     /// <summary>Number of triangles in the mesh.</summary>
     public int FaceCount => VertexIndices.Length / 3;
 
+    /// <summary>The corner behind another one in the same face, both counted through all faces.</summary>
+    internal static int NextCorner(int corner) => corner % 3 == 2 ? corner - 2 : corner + 1;
+
     /// <summary>The box of all vertices, unused ones included.</summary>
     public BoundingBox Bounds { get; }
 

@@ -16,7 +16,7 @@ internal static class Remeshing
         var facesAt = new Dictionary<(int, int), List<int>>();
         for (var corner = 0; corner < mesh.VertexIndices.Length; corner++)
         {
-            var (a, b) = (mesh.VertexIndices[corner], mesh.VertexIndices[corner % 3 == 2 ? corner - 2 : corner + 1]);
+            var (a, b) = (mesh.VertexIndices[corner], mesh.VertexIndices[Mesh.NextCorner(corner)]);
             var key = (Math.Min(a, b), Math.Max(a, b));
             if (!facesAt.TryGetValue(key, out var faces))
             {

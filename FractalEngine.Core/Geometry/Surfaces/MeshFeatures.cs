@@ -33,7 +33,7 @@ internal sealed class MeshFeatures
         for (var i = 0; i < _neighbours.Length; i++)
         {
             var from = _representatives[mesh.VertexIndices[i]];
-            var to = _representatives[mesh.VertexIndices[i % 3 == 2 ? i - 2 : i + 1]];
+            var to = _representatives[mesh.VertexIndices[Mesh.NextCorner(i)]];
             _vertices[i / 3] |= (byte)(isGiven[from] ? 0 : 1 << (i % 3));
             isGiven[from] = true;
             _inwards[from] += mesh.Vertex(to) - mesh.Vertex(from);

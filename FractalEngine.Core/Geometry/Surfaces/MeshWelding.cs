@@ -66,7 +66,7 @@ public static class MeshWelding
         for (var i = 0; i < mesh.VertexIndices.Length; i++)
         {
             var from = representatives[mesh.VertexIndices[i]];
-            var to = representatives[mesh.VertexIndices[i % 3 == 2 ? i - 2 : i + 1]];
+            var to = representatives[mesh.VertexIndices[Mesh.NextCorner(i)]];
             if (faces.TryGetValue((to, from), out var neighbour) && MeshFeatures.IsFlat(mesh, i / 3, neighbour))
             {
                 sides.Join(i / 3, neighbour);

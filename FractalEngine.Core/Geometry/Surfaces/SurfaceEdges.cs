@@ -39,12 +39,10 @@ public readonly record struct SurfaceEdges(int OpenCount, int TouchingCount, Vec
             }
         }
 
-        return new(openCount, touchingCount, openCount == 0 ? null : 0.5 * (CornerAt(firstOpen) + CornerAt(NextCorner(firstOpen))));
+        return new(openCount, touchingCount, openCount == 0 ? null : 0.5 * (CornerAt(firstOpen) + CornerAt(Mesh.NextCorner(firstOpen))));
 
         Vector CornerAt(int corner) => mesh.Vertex(mesh.VertexIndices[corner]);
     }
-
-    private static int NextCorner(int corner) => corner % 3 == 2 ? corner - 2 : corner + 1;
 
     private static (int[] Starts, ulong[] Edges) SortByLowerVertex(Mesh mesh, int[] representatives)
     {
@@ -52,7 +50,7 @@ public readonly record struct SurfaceEdges(int OpenCount, int TouchingCount, Vec
         var starts = new int[mesh.VertexCount + 1];
         for (var i = 0; i < indices.Length; i++)
         {
-            var (from, to) = (representatives[indices[i]], representatives[indices[NextCorner(i)]]);
+            var (from, to) = (representatives[indices[i]], representatives[indices[Mesh.NextCorner(i)]]);
             starts[Math.Min(from, to)] += from == to ? 0 : 1;
         }
 
@@ -67,7 +65,7 @@ public readonly record struct SurfaceEdges(int OpenCount, int TouchingCount, Vec
         var edges = new ulong[count];
         for (var i = indices.Length - 1; i >= 0; i--)
         {
-            var (from, to) = (representatives[indices[i]], representatives[indices[NextCorner(i)]]);
+            var (from, to) = (representatives[indices[i]], representatives[indices[Mesh.NextCorner(i)]]);
             if (from != to)
             {
                 edges[--starts[Math.Min(from, to)]] = ((ulong)Math.Max(from, to) << 32) | ((ulong)i << 1) | (from < to ? 0UL : 1UL);

@@ -285,7 +285,7 @@ internal sealed class GltfPart
         return mapped.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? mapped.UnitVector() : Vector.J;
     }
 
-    /// <summary>Faces of one material.</summary>
+    /// <summary>The faces of the mesh that have one material, with their corners.</summary>
     /// <param name="Material">Index of the material in the file.</param>
     /// <param name="Vertices">Their corners, each different one once.</param>
     /// <param name="Indices">The corners of the faces, [faces × 3].</param>

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Geometry;
+
 namespace FractalEngine.Core.Approximation.Damaged.Placements;
 
 /// <summary>Which faces of an element share edges: what noise and affine maps leave as it is.</summary>
@@ -18,7 +20,7 @@ internal sealed class ElementTopology
         for (var corner = 0; corner < corners.Length; corner++)
         {
             _degrees[corners[corner]]++;
-            var edge = EdgeOf(corners[corner], corners[Next(corner)]);
+            var edge = EdgeOf(corners[corner], corners[Mesh.NextCorner(corner)]);
             if (!_facesAt.TryGetValue(edge, out var faces))
             {
                 _facesAt.Add(edge, faces = []);
@@ -57,14 +59,12 @@ internal sealed class ElementTopology
         return found;
     }
 
-    private static int Next(int corner) => corner % 3 == 2 ? corner - 2 : corner + 1;
-
     private static (int, int) EdgeOf(int vertex1, int vertex2) => (Math.Min(vertex1, vertex2), Math.Max(vertex1, vertex2));
 
     /// <summary>The corners of a face from one of them, in the one or the other direction.</summary>
     private int[] VerticesOf((int Corner, bool IsReversed) flag)
     {
-        var (first, second) = (Next(flag.Corner), Next(Next(flag.Corner)));
+        var (first, second) = (Mesh.NextCorner(flag.Corner), Mesh.NextCorner(Mesh.NextCorner(flag.Corner)));
         return [_corners[flag.Corner], _corners[flag.IsReversed ? second : first], _corners[flag.IsReversed ? first : second]];
     }
 
@@ -90,7 +90,7 @@ internal sealed class ElementTopology
         {
             for (var corner = 3 * face; corner < (3 * face) + 3; corner++)
             {
-                var (a, b) = (_corners[corner], _corners[Next(corner)]);
+                var (a, b) = (_corners[corner], _corners[Mesh.NextCorner(corner)]);
                 var neighbours = _facesAt[EdgeOf(a, b)];
                 if (!other._facesAt.TryGetValue(EdgeOf(vertices[a], vertices[b]), out var images) || images.Count != neighbours.Count)
                 {
