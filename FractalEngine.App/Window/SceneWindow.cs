@@ -7,6 +7,7 @@ using FractalEngine.App.Window.Loading;
 using FractalEngine.App.Window.Panels;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core;
+using FractalEngine.Parsing.Editing;
 using FractalEngine.Render;
 using FractalEngine.Render.Windowing;
 using FractalEngine.Render.Windowing.Events;
@@ -51,13 +52,17 @@ internal sealed class SceneWindow : IDisposable
 
     private SceneWindow(string path, WindowOptions options)
     {
+        // To open a window takes about as long as to load a file.
+        var first = new BackgroundLoad(
+            new(path, Continues: false, FileEdits.None), options.Load, options.Settings, (double)options.Size.Width / options.Size.Height,
+            options.Size, new(), null, () => _window?.Wake());
         _window = new("FractalEngine", options.Size.Width, options.Size.Height);
         _frameRenderer = new(_window);
         _windowRenderer = new(_frameRenderer);
         var prompts = new PromptHost(() => _window.ClipboardText);
         var recent = new RecentFiles(options.RecentFilesPath, Report);
         _area = new(_window);
-        _loader = new(_window, _area, _overlay, options, recent.Add, Report, () => _actions!.Settings, () => _clock.Elapsed);
+        _loader = new(_window, _area, _overlay, options, recent.Add, Report, () => _actions!.Settings, () => _clock.Elapsed, first);
         _tracing = new(options, _window.Wake);
         var saver = new DocumentSaver(_loader, prompts, Report);
         var files = new FileCommands(_loader, saver, prompts, recent, Report, () => _isClosing = true);
@@ -70,7 +75,6 @@ internal sealed class SceneWindow : IDisposable
         _interface = new(_actions);
         _events = new(_window, _frameRenderer, _actions, prompts);
         _tracing.IsEnabled = options.IsTraced ?? _panels.IsTraced;
-        _loader.State = _loader.State.Open(path);
     }
 
     /// <summary>Opens a window on a file, and returns when the user closes it.</summary>

@@ -158,6 +158,7 @@ internal sealed class ChildFootprints
     }
 
     /// <summary>Sorts the indices of children by their keys, the smallest first.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private static void SortFrontToBack(Span<float> keys, Span<int> order)
     {
         if (keys.Length > MaxInsertionSortCount)

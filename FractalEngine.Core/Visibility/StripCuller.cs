@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -144,6 +145,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Visits a sub-fractal whose footprint was not culled, unless it is cut away.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private void Visit(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         ref readonly var frame = ref context.Frame;
@@ -165,6 +167,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Draws a sub-fractal, or visits its children.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private void VisitKept(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         if (!IsWithinBudget(in context))
@@ -230,6 +233,7 @@ internal sealed class StripCuller
         return false;
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private void VisitChildren(in StripContext context, in LodInstance parent)
     {
         var childCount = parent.Node.ChildMaps.Length;
@@ -269,6 +273,7 @@ internal sealed class StripCuller
         _footprints.Pop(start);
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private LodInstance Descend(in StripContext context, in LodInstance parent, int child)
     {
         var node = parent.Node;
@@ -296,6 +301,7 @@ internal sealed class StripCuller
     }
 
     /// <summary>Appends the base mesh under a sub-fractal's proxy map to the output, unless closer instances hide it.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private void Emit(in StripContext context, in LodInstance instance, in ScreenFootprint footprint)
     {
         ref readonly var frame = ref context.Frame;

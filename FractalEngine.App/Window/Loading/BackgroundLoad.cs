@@ -1,9 +1,7 @@
-using System.Collections.Immutable;
 using FractalEngine.App.Shell;
 using FractalEngine.App.Shell.Reports;
 using FractalEngine.App.Window.State;
 using FractalEngine.Core;
-using FractalEngine.Core.Files;
 using FractalEngine.Core.Threading;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render.Preparation;
@@ -16,7 +14,6 @@ namespace FractalEngine.App.Window.Loading;
 internal sealed class BackgroundLoad
 {
     private readonly ThrottledProgress _progress = new();
-    private readonly AssetCache _cache;
     private readonly BackgroundJob<(LoadedFile File, ScenePreparation Preparation)> _job;
 
     /// <summary>Starts to load a file and all that it refers to, and to prepare it for drawing.</summary>
@@ -33,7 +30,7 @@ internal sealed class BackgroundLoad
         Document? previous, Action ended)
     {
         Request = request;
-        _cache = cache;
+        Cache = cache;
         // The camera may be elsewhere by the end of the load. What it sees then is prepared at first sight.
         var view = previous?.LatestView;
         _job = new(
@@ -60,14 +57,14 @@ internal sealed class BackgroundLoad
 
     public LoadRequest Request { get; }
 
+    /// <summary>What was read before, and by this load.</summary>
+    public AssetCache Cache { get; }
+
     /// <summary>True when the load has succeeded or failed.</summary>
     public bool IsCompleted => _job.Result.IsCompleted;
 
     /// <summary>The file being loaded, and the completed fraction from 0 to 1.</summary>
     public (string Text, double Fraction) Progress => _progress.Latest;
-
-    /// <summary>All files that the load looked at, as they were before, once it is completed.</summary>
-    public ImmutableDictionary<string, FileStamp> Files => _cache.Files;
 
     /// <summary>Waits for the load and returns its result; null if the file can't be loaded.</summary>
     /// <param name="failure">The reason why the file can't be loaded; null if it can.</param>

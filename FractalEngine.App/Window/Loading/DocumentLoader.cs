@@ -22,14 +22,15 @@ namespace FractalEngine.App.Window.Loading;
 /// <param name="report">Shows a message.</param>
 /// <param name="settings">Returns the present render settings.</param>
 /// <param name="clock">Tells the present time.</param>
+/// <param name="first">The load of the first file, which began before there was a window; null for none.</param>
 internal sealed class DocumentLoader(
     RenderWindow window, ViewArea area, WindowOverlay overlay, WindowOptions options, Action<string> opened, Action<string> report,
-    Func<RenderSettings> settings, Func<TimeSpan> clock) : IDisposable
+    Func<RenderSettings> settings, Func<TimeSpan> clock, BackgroundLoad? first = null) : IDisposable
 {
     private readonly FileWatcher? _watcher = options.WatchesFiles ? new(window.Wake) : null;
-    private readonly AssetCache _cache = new();
-    private readonly WindowStore _store = new();
-    private BackgroundLoad? _load;
+    private readonly AssetCache _cache = first?.Cache ?? new();
+    private readonly WindowStore _store = new() { State = first is null ? new() : WindowState.Opening(first.Request) };
+    private BackgroundLoad? _load = first;
 
     /// <summary>The state of the window. What it asks for is done by the next <see cref="Poll"/>.</summary>
     public WindowState State

@@ -61,6 +61,9 @@ internal sealed record WindowState
     public bool IsEditLoading => (Loading is { Continues: true } && !IsReload(Loading)) || Next is { Continues: true }
         || (IsBusy && Document is { HasUnshownEdit: true });
 
+    /// <summary>The state of a window whose first file loads already.</summary>
+    public static WindowState Opening(LoadRequest request) => new WindowState().Start(request);
+
     /// <summary>Asks for a file. If another one is being loaded, it comes next.</summary>
     /// <param name="path">Path of the mesh, fractal or scene.</param>
     /// <param name="continues">True for the same scene under another name: its camera and bodies go on.</param>

@@ -45,6 +45,7 @@ internal sealed class OccluderRasterizer
         return RasterizeTriangles(mesh.VertexIndices, Math.Sign(windingSign) * (IsMirrored(in map) ? -1 : 1));
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private void ProjectVertices(in StripFrame frame, OccluderMesh mesh, in SimdAffineMap map)
     {
         var centre = map.Apply(SimdAffineMap.ToVector256(mesh.Centre));
@@ -84,6 +85,7 @@ internal sealed class OccluderRasterizer
         }
     }
 
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private bool RasterizeTriangles(int[] indices, int windingSign)
     {
         var isVisible = false;

@@ -78,6 +78,7 @@ internal sealed class OcclusionBuffer
     /// <param name="right">Last column, no less than the first.</param>
     /// <param name="bottom">Last row, no less than the first.</param>
     /// <param name="maxInverseDepth">Largest inverse depth of what is tested.</param>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public bool IsOccluded(int left, int top, int right, int bottom, float maxInverseDepth)
     {
         left -= Left;
@@ -100,6 +101,7 @@ internal sealed class OcclusionBuffer
     /// <summary>Rasterizes a triangle with corners a, b and c.</summary>
     /// <remarks>Coordinates x and y are pixels of the frame, y downwards.</remarks>
     /// <returns>True when the triangle is the closest surface at some sample.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     public bool RasterizeTriangle(
         float ax, float ay, float aInverseDepth,
         float bx, float by, float bInverseDepth,
@@ -193,6 +195,7 @@ internal sealed class OcclusionBuffer
     }
 
     /// <summary>The minimum of a tile's pixels, computed anew if triangles have been rasterized since.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private float TileMinInverseDepth(int tileX, int tileY)
     {
         var tile = (tileY * _tilesPerRow) + tileX;
@@ -222,6 +225,7 @@ internal sealed class OcclusionBuffer
     }
 
     /// <summary>Tests the pixels of a rectangle that lie in one tile.</summary>
+    [MethodImpl(MethodImplOptions.AggressiveOptimization)]
     private bool IsTileOccluded(int tileX, int tileY, int left, int top, int right, int bottom, float maxInverseDepth)
     {
         var x = tileX * TileSize;
