@@ -6,7 +6,10 @@ set -euo pipefail
 # Help and messages name the program as it was called.
 export FRACTALENGINE_PROGRAM="$0"
 
+# What NuGet has is fetched while Debian's packages install.
+restore_ready FractalEngine.App &
 install_packages
+wait
 build_ready FractalEngine.App
 
 app=("$root/FractalEngine.App/bin/ready/FractalEngine.App")

@@ -78,7 +78,7 @@ run_dotnet() {
     local command="$1" project="$2"
     shift 2
     command -v dotnet >/dev/null || fail "the .NET SDK 10 is missing: see https://dotnet.microsoft.com/download"
-    dotnet "$command" "$root/$project" -c "$configuration" -v quiet -nodeReuse:false --disable-build-servers "$@" </dev/null
+    dotnet "$command" "$root/$project" -p:Configuration="$configuration" -v quiet -nodeReuse:false --disable-build-servers "$@" </dev/null
 }
 
 # Says so on a terminal where a build takes more than two seconds. Stop it by stop_announcing.
@@ -94,14 +94,15 @@ stop_announcing() {
     announcer=
 }
 
-# Builds a project if a source is newer than its last build.
+# Builds a project if a source is newer than its last build; further arguments go to `dotnet build`.
 build() {
     local project="$1" stamp="$root/$1/obj/built.stamp" log
+    shift
     is_up_to_date "$stamp" && return 0
     log="$(mktemp)"
     touch "$log"
     announce_build "$project"
-    if ! run_dotnet build "$project" >"$log" 2>&1; then
+    if ! run_dotnet build "$project" "$@" >"$log" 2>&1; then
         stop_announcing
         cat "$log" >&2
         rm -f "$log"
@@ -114,22 +115,28 @@ build() {
 }
 
 # Builds a program with code that is compiled ahead of time, in its folder bin/ready: most commands then take half as long. The
-# compiler for that is a package. Where it can't be had there is no such folder, but the ordinary build.
+# compiler for that is a package. Where it can't be had there is no such folder, but the ordinary build. Who only runs it waits a third
+# of the time without the analyzers, which tests build with.
+ready_options=(--use-current-runtime -p:SelfContained=false -p:PublishReadyToRun=true -p:RunAnalyzers=false)
 build_ready() {
     local project="$1" stamp="$root/$1/obj/ready.stamp" ready="$root/$1/bin/ready" start
     is_up_to_date "$stamp" && return 0
     start="$(mktemp)"
     announce_build "$project"
-    if ! { rm -rf "$ready" && run_dotnet publish "$project" --use-current-runtime --no-self-contained -p:PublishReadyToRun=true \
-        -o "$ready" >/dev/null 2>&1; }; then
+    if ! { rm -rf "$ready" && run_dotnet publish "$project" "${ready_options[@]}" -o "$ready" >/dev/null 2>&1; }; then
         stop_announcing
         rm -rf "$ready"
-        build "$project"
+        build "$project" -p:RunAnalyzers=false
     fi
     stop_announcing
     mkdir -p "$(dirname "$stamp")"
     touch -r "$start" "$stamp"
     rm -f "$start"
+}
+
+# Downloads what build_ready needs, before a first build.
+restore_ready() {
+    [ -e "$root/$1/obj/ready.stamp" ] || run_dotnet restore "$1" "${ready_options[@]}" >/dev/null 2>&1
 }
 
 # Gives the tests the program as run.sh starts it, compiled ahead of time: they start it hundreds of times.
