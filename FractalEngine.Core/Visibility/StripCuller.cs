@@ -32,8 +32,8 @@ internal sealed class StripCuller
     private readonly List<int> _candidates = [];
     private readonly SkyPath _skyPath = new();
 
-    /// <summary>Instances and statistics of the last run.</summary>
-    public StripOutput Output { get; } = new();
+    /// <summary>Instances and statistics of the run.</summary>
+    private StripOutput Output { get; set; } = new();
 
     /// <summary>Finds the visible instances of all objects.</summary>
     /// <param name="frame">Parameters of the strip.</param>
@@ -43,10 +43,13 @@ internal sealed class StripCuller
     /// <param name="bvh">
     /// Tells with frustum culling which of the objects, none with roots, may be visible; null to test each of them.
     /// </param>
+    /// <param name="output">Receives the instances and statistics.</param>
     /// <remarks>The output is that of a run without the hierarchy: objects that it skips count as tested.</remarks>
     public void Cull(
-        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh? bvh)
+        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh? bvh,
+        StripOutput output)
     {
+        Output = output;
         Output.Clear();
         _rasterizer.Clear(in frame);
         _candidates.Clear();

@@ -17,7 +17,10 @@ public sealed class VisibleSet
     private const double CoarseningFactor = 1.5;
     private const int FineStepCount = 4;
 
-    private readonly StripCuller[] _strips = [.. Enumerable.Range(0, StripCount).Select(static _ => new StripCuller())];
+    private readonly StripOutput[] _strips = [.. Enumerable.Range(0, StripCount).Select(static _ => new StripOutput())];
+
+    // One for each thread that has culled a strip: the pixels of a strip of a large depth map take 8 MB.
+    private readonly Stack<StripCuller> _cullers = new(StripCount);
     private readonly InstanceList _sharedInstances = new(hasPathHashes: false);
     private readonly HashSet<(int Rank, ulong PathHash)> _mergedKeys = [];
     private readonly ParallelOptions _parallelOptions = new();
@@ -155,7 +158,7 @@ public sealed class VisibleSet
         var rank = RankOf(objectIndex);
         foreach (var strip in _strips)
         {
-            if (strip.Output.HasNearClippedInstance(rank))
+            if (strip.HasNearClippedInstance(rank))
             {
                 return true;
             }
@@ -166,7 +169,7 @@ public sealed class VisibleSet
 
     private int RankOf(int objectIndex) => _ranks.AsSpan(0, _objects.Count)[objectIndex];
 
-    private InstanceList ListOf(int chunk) => chunk < StripCount ? _strips[chunk].Output.Instances : _sharedInstances;
+    private InstanceList ListOf(int chunk) => chunk < StripCount ? _strips[chunk].Instances : _sharedInstances;
 
     /// <summary>Culls all strips with a number of steps of coarsening.</summary>
     /// <returns>False when there are more instances than the budget.</returns>
@@ -237,11 +240,26 @@ public sealed class VisibleSet
         var right = (stripIndex + 1) * _view.Width / StripCount;
         var frame = new StripFrame(in _view, _settings, MinProjectedSize, _instanceBudget, left, right);
         var strip = _strips[stripIndex];
-        strip.Cull(
-            in frame, _objects, _order.AsSpan(0, _objects.Count), _ranks.AsSpan(0, _objects.Count), _usesObjectBvh ? _objectBvh : null);
-        if (Interlocked.Add(ref _foundCount, strip.Output.Instances.Count) > _instanceBudget || strip.Output.IsOverBudget)
+        var culler = TakeCuller();
+        culler.Cull(
+            in frame, _objects, _order.AsSpan(0, _objects.Count), _ranks.AsSpan(0, _objects.Count), _usesObjectBvh ? _objectBvh : null,
+            strip);
+        lock (_cullers)
+        {
+            _cullers.Push(culler);
+        }
+
+        if (Interlocked.Add(ref _foundCount, strip.Instances.Count) > _instanceBudget || strip.IsOverBudget)
         {
             _isOverBudget = true;
+        }
+    }
+
+    private StripCuller TakeCuller()
+    {
+        lock (_cullers)
+        {
+            return _cullers.TryPop(out var culler) ? culler : new();
         }
     }
 
@@ -254,7 +272,7 @@ public sealed class VisibleSet
         {
             foreach (var strip in _strips)
             {
-                var candidates = strip.Output.SharedInstances;
+                var candidates = strip.SharedInstances;
                 var (start, count) = candidates.RangeOf(rank);
                 for (var i = start; i < start + count; i++)
                 {
@@ -275,8 +293,8 @@ public sealed class VisibleSet
         InstanceCount = _sharedInstances.Count;
         foreach (var strip in _strips)
         {
-            Statistics += strip.Output.Statistics;
-            InstanceCount += strip.Output.Instances.Count;
+            Statistics += strip.Statistics;
+            InstanceCount += strip.Instances.Count;
         }
     }
 }
