@@ -110,12 +110,11 @@ internal readonly record struct FacetAlbedo(double Normal, double Grazing)
     private static FacetAlbedo[] Tabulate()
     {
         var entries = new FacetAlbedo[TableSize * TableSize];
-        for (var i = 0; i < entries.Length; i++)
+        Parallel.For(0, entries.Length, i =>
         {
             var (row, column) = Math.DivRem(i, TableSize);
             entries[i] = Integrate(Math.Max(Math.Pow(column / (TableSize - 1.0), 2), MinCosine), RoughnessOf(row));
-        }
-
+        });
         return entries;
     }
 
@@ -139,7 +138,8 @@ internal readonly record struct FacetAlbedo(double Normal, double Grazing)
             if (height > 0)
             {
                 var visible = square * rest * Shadowing(height, alpha * alpha);
-                var fresnel = Math.Pow(1 - Math.Min(seen, 1), 5);
+                var rise = 1 - Math.Min(seen, 1);
+                var fresnel = rise * rise * rise * rise * rise;
                 normal += visible * (1 - fresnel);
                 grazing += visible * fresnel;
             }

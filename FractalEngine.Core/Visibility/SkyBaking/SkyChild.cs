@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
@@ -46,18 +47,19 @@ internal readonly record struct SkyChild(LodNode Node, long Levels, AffineMap In
         var toMinimum = Box.Minimum - origin;
         var toMaximum = Box.Maximum - origin;
         var (entry, exit) = (double.NegativeInfinity, double.PositiveInfinity);
-        Clip(toMinimum.X, toMaximum.X, inverseDirection.X);
-        Clip(toMinimum.Y, toMaximum.Y, inverseDirection.Y);
-        Clip(toMinimum.Z, toMaximum.Z, inverseDirection.Z);
+        Clip(toMinimum.X, toMaximum.X, inverseDirection.X, ref entry, ref exit);
+        Clip(toMinimum.Y, toMaximum.Y, inverseDirection.Y, ref entry, ref exit);
+        Clip(toMinimum.Z, toMaximum.Z, inverseDirection.Z, ref entry, ref exit);
         return exit > 0 && entry <= exit ? entry : double.PositiveInfinity;
+    }
 
-        // A ray within the plane of a side gives 0 · ∞, which is no number. The box holds what lies in its sides: comparisons with no
-        // number are false, so that this side cuts nothing off.
-        void Clip(double first, double last, double inverse)
-        {
-            (first, last) = inverse < 0 ? (last * inverse, first * inverse) : (first * inverse, last * inverse);
-            entry = first > entry ? first : entry;
-            exit = last < exit ? last : exit;
-        }
+    // A ray within the plane of a side gives 0 · ∞, which is no number. The box holds what lies in its sides: comparisons with no number
+    // are false, so that this side cuts nothing off.
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private static void Clip(double first, double last, double inverse, ref double entry, ref double exit)
+    {
+        (first, last) = inverse < 0 ? (last * inverse, first * inverse) : (first * inverse, last * inverse);
+        entry = first > entry ? first : entry;
+        exit = last < exit ? last : exit;
     }
 }

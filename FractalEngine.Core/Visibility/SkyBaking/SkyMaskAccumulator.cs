@@ -26,12 +26,15 @@ internal sealed class SkyMaskAccumulator
     public ulong[] ToMasks()
     {
         var masks = new ulong[SkyMasks.MaskCount];
+        bool[] hasVotes = [.. _votes.Chunk(SkyDirections.Count).Select(static votes => votes.AsSpan().ContainsAnyExcept(0))];
+        bool[][] ofSides = [.. Enumerable.Range(0, AmbientCube.Count).Select(side => CellsOf(hasVotes, side, 1))];
+        var ofAnySide = CellsOf(hasVotes, 0, AmbientCube.Count);
         for (var place = 0; place < masks.Length; place++)
         {
             var (cell, side) = (place / AmbientCube.Count, place % AmbientCube.Count);
-            var sameSide = VotesAt(FindNearestCell(cell, other => HasVotes(other, side)), side);
+            var sameSide = VotesAt(FindNearestCell(cell, ofSides[side]), side);
             // A side that no surface faces is blended with others, and sees about what they see.
-            var nearestCell = FindNearestCell(cell, other => Enumerable.Range(0, AmbientCube.Count).Any(any => HasVotes(other, any)));
+            var nearestCell = FindNearestCell(cell, ofAnySide);
             for (var direction = 0; direction < SkyDirections.Count; direction++)
             {
                 var sum = sameSide.IsEmpty ? 0 : sameSide[direction];
@@ -50,15 +53,17 @@ internal sealed class SkyMaskAccumulator
     private ReadOnlySpan<int> VotesAt(int cell, int side) =>
         cell < 0 ? [] : _votes.AsSpan(((cell * AmbientCube.Count) + side) * SkyDirections.Count, SkyDirections.Count);
 
-    private bool HasVotes(int cell, int side) => VotesAt(cell, side).ContainsAnyExcept(0);
+    /// <summary>Tells which cells have votes of some sides.</summary>
+    private static bool[] CellsOf(bool[] hasVotes, int firstSide, int sideCount) =>
+        [.. Enumerable.Range(0, SkyMasks.CellCount)
+            .Select(cell => hasVotes.AsSpan((cell * AmbientCube.Count) + firstSide, sideCount).Contains(true))];
 
-    private static int FindNearestCell(int cell, Func<int, bool> isMeant)
+    private static int FindNearestCell(int cell, bool[] isMeant)
     {
         var (nearest, nearestDistance) = (-1, int.MaxValue);
-        for (var other = 0; other < SkyMasks.CellCount; other++)
+        for (var other = 0; other < isMeant.Length; other++)
         {
-            var distance = SkyMasks.SquaredDistance(cell, other);
-            if (distance < nearestDistance && isMeant(other))
+            if (isMeant[other] && SkyMasks.SquaredDistance(cell, other) is var distance && distance < nearestDistance)
             {
                 (nearest, nearestDistance) = (other, distance);
             }

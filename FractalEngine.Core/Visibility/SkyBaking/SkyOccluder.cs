@@ -286,9 +286,14 @@ internal sealed class SkyOccluder
 
         var offset = origin - triangle.A;
         var u = Vector.Dot(offset, across) / determinant;
+        if (!(u is >= 0 and <= 1))
+        {
+            return double.PositiveInfinity;
+        }
+
         var normal = Vector.Cross(offset, triangle.Edge1);
         var v = Vector.Dot(direction, normal) / determinant;
         var distance = Vector.Dot(triangle.Edge2, normal) / determinant;
-        return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : double.PositiveInfinity;
+        return v >= 0 && u + v <= 1 && distance > 0 ? distance : double.PositiveInfinity;
     }
 }
