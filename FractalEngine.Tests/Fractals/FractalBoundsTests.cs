@@ -181,6 +181,17 @@ public class FractalBoundsTests
         AssertNear(new(Vector.Zero, Vector.One), infinite.Bounds, 1e-9);
     }
 
+    /// <summary>The last digits of coordinates change from level to level without end.</summary>
+    [Fact]
+    public void Bounds_OfTheInfiniteWithMirrors_AreThoseOfADeepOne() => Seeded.Run(100, random =>
+    {
+        var centre = Math.Pow(10, random.Next(9)) * random.Direction();
+        var maps = Enumerable.Range(0, random.Next(1, 5)).Select(_ => random.Transformation(0.1, 0.5) with { Rotation = Vector.Zero })
+            .Select(map => map with { Position = map.Position + centre - centre.Stretch(map.Scale) }).ToArray();
+        var fractal = Fractal.Of(Samples.Tetrahedron.Transform(v => v + centre)).Repeat(maps);
+        AssertNear(fractal.WithDepth(100).Bounds, fractal.Bounds, 1e-9);
+    });
+
     [Fact]
     public void Bounds_OfTheInfinite_AreTheLimitOfFiniteDepths() => Seeded.Run(50, random =>
     {
