@@ -66,7 +66,9 @@ internal sealed class FarthestPointSearch(FractalHierarchy hierarchy)
         _givenUpBound = double.NegativeInfinity;
         _opened.Clear();
         _seen.Clear();
-        var scale = Math.Max(Math.Abs(measure.UpperBound(hierarchy.Root, in map)), hierarchy.Root.Radius * map.Linear.MaxAbsEntry());
+        // That of the fractal's own box: its radius holds the base mesh too, which maps may make as small as they like.
+        var scale = Math.Max(
+            Math.Abs(measure.UpperBound(hierarchy.Root, in map)), 0.5 * hierarchy.Root.Box.Diagonal * map.Linear.MaxAbsEntry());
         var tolerance = relativeTolerance * scale;
         // Only the first instance of the base mesh in the order of the queue counts: its bound is the value itself.
         var leaf = (Priority: (double.PositiveInfinity, 0), Value: double.NegativeInfinity);

@@ -15,7 +15,7 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
 {
     private const int MaxInfiniteRounds = 100_000;
 
-    private const double ConvergenceTolerance = 1e-15;
+    private const double ConvergenceTolerance = 2e-15;
 
     /// <summary>Bounds of the levels so far; all of space where they don't converge, or leave the range of a double.</summary>
     public SphereAndBox Volume { get; private set; } = SphereAndBox.FromMesh(mesh);
@@ -78,6 +78,7 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
         var minimumChange = (previous.Box.Minimum - current.Box.Minimum).MaxAbsComponent();
         var maximumChange = (previous.Box.Maximum - current.Box.Maximum).MaxAbsComponent();
         var radiusChange = Math.Abs(previous.Sphere.Radius - current.Sphere.Radius);
-        return Math.Max(radiusChange, Math.Max(minimumChange, maximumChange)) <= ConvergenceTolerance * current.Box.Size.MaxAbsComponent();
+        // Of coordinates, not of the size: under mirrors their last digits may change without end.
+        return Math.Max(radiusChange, Math.Max(minimumChange, maximumChange)) <= ConvergenceTolerance * current.Box.MaxAbsCoordinate();
     }
 }

@@ -1,3 +1,4 @@
+using System.Buffers.Binary;
 using System.Text.Json;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
@@ -20,6 +21,10 @@ namespace FractalEngine.Parsing.Gltf;
 /// </remarks>
 public static class GltfReader
 {
+    // Bytes of the header of a .glb, and of that of each chunk.
+    private const long ChunksStart = 12;
+    private const long ChunkHeader = 8;
+
     // What these require is read, or changes nothing but how surfaces look.
     private static readonly HashSet<string> KnownExtensions =
     [
@@ -60,6 +65,7 @@ public static class GltfReader
 
     private static ParsedObj Read(MeshBytes bytes, string path, string fileName, Func<string, byte[]> readOther, bool keepsInstances)
     {
+        CheckChunks(bytes);
         var context = ReadContext.Create(name => new ArraySegment<byte>(readOther(name)));
         context.Validation = ValidationMode.Skip;
         CheckContents(ReadContext.ReadJsonBytes(Open()), fileName);
@@ -117,6 +123,21 @@ public static class GltfReader
             }
 
             builder.Add(mesh, name, place);
+        }
+    }
+
+    /// <summary>Refuses a chunk that is longer than its file: the library takes memory for what it states.</summary>
+    private static void CheckChunks(MeshBytes bytes)
+    {
+        var end = bytes.Contents.StartsWith("glTF"u8) ? bytes.Length - ChunkHeader : 0;
+        var length = 0u;
+        for (var place = ChunksStart; place <= end; place += ChunkHeader + length)
+        {
+            length = BinaryPrimitives.ReadUInt32LittleEndian(bytes.Contents[(int)place..]);
+            if (length > end - place)
+            {
+                throw bytes.ByteError((int)place, $"a chunk of {length} bytes is longer than the file");
+            }
         }
     }
 

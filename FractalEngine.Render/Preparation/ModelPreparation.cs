@@ -42,8 +42,9 @@ internal static class ModelPreparation
         var (maps, tints) = hierarchy is null && model is FractalModel { Fractal: var fractal }
             ? Expand(name, fractal, settings, notices)
             : ([AffineMap.Identity], []);
-        var origin = CentreOrOrigin(model.Bounds);
-        var meshOrigin = CentreOrOrigin(mesh.Bounds);
+        // Of faces alone: floats relative to a vertex far away that none has would lose their shape.
+        var meshOrigin = CentreOrOrigin(mesh.UsedBounds);
+        var origin = model is MeshModel ? meshOrigin : CentreOrOrigin(model.Bounds);
         var batches = FaceBatches.ByMaterial(model, textures, settings.RemoveDegenerateTriangles);
         var (vertices, textureCoordinates, colours, indices) = DrawableMeshBuilder.Build(mesh, meshOrigin, settings.CreaseAngle, batches);
         var testsSolidity = hierarchy is not null

@@ -91,6 +91,19 @@ public class FractalBoundsTests
         }
     });
 
+    /// <summary>What a small object of a mesh far from its origin is searched by: the rounding of the mesh is no measure of it.</summary>
+    [Fact]
+    public void Bounds_OfAMeshFarAwayThatIsPlacedTiny_AreThoseOfItsExpandedVertices() => Seeded.Run(100, random =>
+    {
+        var offset = Math.Pow(10, random.Between(0, 7)) * random.Direction();
+        var (tetrahedron, scale) = (Samples.Tetrahedron, Math.Pow(10, -random.Between(0, 12)));
+        var mesh = tetrahedron.Transform(v => v.Stretch(new(1, 1e-3, 1)) + offset);
+        Transformation[] maps = [random.Transformation(), random.Transformation(), random.Transformation()];
+        var placement = new Transformation(random.Vector(scale), random.Degrees(), scale * Vector.One);
+        var fractal = Fractal.Of(mesh).Apply(maps.Select(map => map with { Position = -(map.ToAffineMap().Linear * offset) }));
+        AssertNear(BruteForce(fractal.WithPlacement(placement)), fractal.WithPlacement(placement).Bounds, 1e-9, scale * offset.Length());
+    });
+
     /// <summary>Wide levels are searched by groups of their children, which have the map of their parent.</summary>
     [Theory]
     [InlineData(65, 1)]
@@ -168,6 +181,17 @@ public class FractalBoundsTests
         AssertNear(new(Vector.Zero, Vector.One), infinite.Bounds, 1e-9);
     }
 
+    /// <summary>The last digits of coordinates change from level to level without end.</summary>
+    [Fact]
+    public void Bounds_OfTheInfiniteWithMirrors_AreThoseOfADeepOne() => Seeded.Run(100, random =>
+    {
+        var centre = Math.Pow(10, random.Next(9)) * random.Direction();
+        var maps = Enumerable.Range(0, random.Next(1, 5)).Select(_ => random.Transformation(0.1, 0.5) with { Rotation = Vector.Zero })
+            .Select(map => map with { Position = map.Position + centre - centre.Stretch(map.Scale) }).ToArray();
+        var fractal = Fractal.Of(Samples.Tetrahedron.Transform(v => v + centre)).Repeat(maps);
+        AssertNear(fractal.WithDepth(100).Bounds, fractal.Bounds, 1e-9);
+    });
+
     [Fact]
     public void Bounds_OfTheInfinite_AreTheLimitOfFiniteDepths() => Seeded.Run(50, random =>
     {
@@ -222,10 +246,10 @@ public class FractalBoundsTests
 
     private static void AssertContains(BoundingBox outer, BoundingBox inner) => AssertNear(outer, BoundingBox.Union(outer, inner), 1e-9);
 
-    private static void AssertNear(BoundingBox expected, BoundingBox actual, double relativeTolerance)
+    private static void AssertNear(BoundingBox expected, BoundingBox actual, double relativeTolerance, double reach = 0)
     {
         // Coordinates away from the origin are rounded, however small the box is.
-        var rounding = 1e-14 * Math.Max(expected.Minimum.MaxAbsComponent(), expected.Maximum.MaxAbsComponent());
+        var rounding = 1e-14 * Math.Max(reach, Math.Max(expected.Minimum.MaxAbsComponent(), expected.Maximum.MaxAbsComponent()));
         var tolerance = (relativeTolerance * expected.Diagonal) + rounding;
         Near.Equal(expected.Minimum, actual.Minimum, tolerance);
         Near.Equal(expected.Maximum, actual.Maximum, tolerance);

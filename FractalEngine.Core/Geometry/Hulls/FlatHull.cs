@@ -23,7 +23,14 @@ internal static class FlatHull
         {
             var start = vertices[i];
             var end = vertices[(i + 1) % vertices.Count];
-            var outwards = Vector.Cross(end - start, normal).UnitVector();
+            var outwards = Vector.Cross(end - start, normal);
+            if (outwards == Vector.Zero)
+            {
+                // Beside points far away, vertices may differ along the normal alone: no plane bounds them.
+                continue;
+            }
+
+            outwards = outwards.UnitVector();
             planes.Add(new(outwards, Vector.Dot(outwards, start), 0));
             foreach (var point in points)
             {

@@ -18,7 +18,7 @@ internal sealed class OccluderMesh
     /// <summary>Prepares a mesh for rasterization.</summary>
     public OccluderMesh(Mesh mesh)
     {
-        Centre = mesh.FaceCount == 0 ? Vector.Zero : mesh.Bounds.Centre;
+        Centre = mesh.FaceCount == 0 ? Vector.Zero : mesh.UsedBounds.Centre;
         if (mesh.FaceCount > MaxFaceCount)
         {
             return;

@@ -70,6 +70,16 @@ public class ConvexHullTests
     });
 
     [Fact]
+    public void Build_OfAFlatHullWithVerticesAboveEachOther_ContainsThem()
+    {
+        // The direction in the plane is rounded, so that both of the first points are the farthest in some direction.
+        Vector[] points = [Vector.Zero, Vector.K, new(1e17, 1e17, 0), new(-1e17, 1e17, 0)];
+        var hull = FlatHull.Build(points, new(1, 0, 1e-17), Vector.K, height: 1, maxVertices: 16);
+        Assert.All(hull.Planes, plane => Assert.All(
+            points, point => Assert.True(Vector.Dot(plane.Normal, point) <= plane.Offset + hull.MaxOutsideDistance)));
+    }
+
+    [Fact]
     public void Build_OfACubeOfPoints_IsTheCube()
     {
         var points = PointClouds.All["grid"](new(1));

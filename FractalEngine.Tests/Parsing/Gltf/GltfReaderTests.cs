@@ -406,6 +406,19 @@ public sealed class GltfReaderTests : IDisposable
     }
 
     [Fact]
+    public void Chunk_LongerThanItsFile_IsRefusedBeforeMemoryIsTaken()
+    {
+        var file = QuadDocument(4, [0, 1, 2, 0, 2, 3]).Binary();
+        BitConverter.TryWriteBytes(file.AsSpan(12), 2_000_000_000);
+        var path = _folder["a.glb"];
+        File.WriteAllBytes(path, file);
+        var before = GC.GetAllocatedBytesForCurrentThread();
+        var message = Errors.MessageOf(() => MeshFile.Read(path));
+        Assert.EndsWith("byte 12: a chunk of 2000000000 bytes is longer than the file", message, StringComparison.Ordinal);
+        Assert.InRange(GC.GetAllocatedBytesForCurrentThread() - before, 0, 1_000_000);
+    }
+
+    [Fact]
     public void Skins_AreRefused_AndLinesLeftOut()
     {
         var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);

@@ -74,6 +74,16 @@ public sealed class DrawableSceneTests
     }
 
     [Fact]
+    public void Prepare_UnusedVertexFarAway_LeavesFacesTheirShape()
+    {
+        var cube = RenderScenes.Cube(1);
+        var mesh = new Mesh([.. cube.Positions, 1e9, -2e9, 3e9], cube.VertexIndices);
+        var (model, other) = (Prepare(new(), RenderScenes.Model(cube)).Models[0], Prepare(new(), RenderScenes.Model(mesh)).Models[0]);
+        Assert.Equal(model.Vertices.ToArray(), other.Vertices.ToArray());
+        Assert.Equal((model.Origin, model.MeshOrigin), (other.Origin, other.MeshOrigin));
+    }
+
+    [Fact]
     public void Prepare_NormalsOfTheFile_AreTakenAndFlippedToTheFrontSide()
     {
         var mesh = RenderScenes.Square(1).WithNormals([0, 0.6, -0.8, 0, 0, 5, 0, 0, 0], [0, 0, 0, 1, 1, 2]);
