@@ -193,7 +193,7 @@ internal static class AnimateCommand
         {
             output.Complete();
             var frames = made == 1 ? "1 frame" : $"{made} frames";
-            report.Written(output.Name, known == 0 ? frames : $"{frames}, {known} were there");
+            report.Written(output.Name, known == 0 ? frames : $"{frames}, {known} {(known == 1 ? "was" : "were")} there");
         }
     }
 

@@ -72,8 +72,10 @@ public sealed class JoinedScene
     {
         ArgumentNullException.ThrowIfNull(welded);
         var (open, touching, first) = SurfaceEdges.Of(welded.Objects[0].Model.Mesh);
-        var closed = open == 0 ? "closed" : FormattableString.Invariant($"{open} open edges, one at {first}");
-        return touching == 0 ? closed : FormattableString.Invariant($"{closed}, {touching} edges where surfaces touch");
+        var closed = open == 0 ? "closed" : $"{Edges(open, "open ")}, one at {first}";
+        return touching == 0 ? closed : $"{closed}, {Edges(touching, "")} where surfaces touch";
+
+        static string Edges(int count, string kind) => FormattableString.Invariant($"{count} {kind}edge{(count == 1 ? "" : "s")}");
     }
 
     private static Material WithoutTextures(Material material) => material with
