@@ -18,6 +18,9 @@ internal sealed record RayDescendant(
     int[] Path, SubFractal Target, bool IsGroup, long RemainingLevels, LevelStep LevelStep, AffineMap Map, AffineMap Inverse, double Norm,
     double InverseNorm, BoundingBox Box)
 {
+    // Of the computed norm of a map: the root of what is rounded, where two directions are lengthened alike.
+    private const double NormError = 1e-7;
+
     /// <summary>Lists the children of a sub-fractal, or of a group, that are not empty.</summary>
     /// <param name="subFractal">The sub-fractal or group.</param>
     /// <param name="level">Its remaining levels.</param>
@@ -33,15 +36,16 @@ internal sealed record RayDescendant(
         ChildrenOf(Target, RemainingLevels, hierarchy).Select(inner =>
         {
             var map = Map * inner.Map;
-            var norm = Norm * inner.Norm * (1 + RoundingErrors.Norm);
+            var inverse = inner.Inverse * Inverse;
+            var norm = NormBound(map, Norm * inner.Norm);
             return inner with
             {
                 Path = [.. Path, .. inner.Path],
                 LevelStep = LevelStep.Then(inner.LevelStep),
                 Map = map,
-                Inverse = inner.Inverse * Inverse,
+                Inverse = inverse,
                 Norm = norm,
-                InverseNorm = InverseNorm * inner.InverseNorm * (1 + RoundingErrors.Norm),
+                InverseNorm = NormBound(inverse, InverseNorm * inner.InverseNorm),
                 Box = BoundingBox.Intersection(inner.Box.Transform(Map), inner.Target.TransformedBox(map, norm)),
             };
         });
@@ -50,9 +54,12 @@ internal sealed record RayDescendant(
     {
         var levels = child.RemainingLevels(level);
         var inverse = child.InverseSimdMap.ToAffineMap();
-        var inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
         return new(
             [index], hierarchy.At(child, levels), child.Group is not null, levels, child.LevelStep, child.Map, inverse,
-            child.OperatorNormBound, inverseNorm, box);
+            NormBound(child.Map, child.OperatorNormBound), NormBound(inverse, BoundingSphere.OperatorNormBound(inverse.Linear)), box);
     }
+
+    /// <summary>Bounds the factor by which a map lengthens vectors, often better than the product of the bounds of its parts.</summary>
+    private static double NormBound(AffineMap map, double bound) =>
+        Math.Min(bound * (1 + RoundingErrors.Norm), map.Linear.OperatorNorm() * (1 + NormError));
 }
