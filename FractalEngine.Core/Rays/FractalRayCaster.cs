@@ -139,13 +139,8 @@ internal sealed class FractalRayCaster(
         frame.Size = _start.Size;
         frame.PathLength = 0;
         frame.Set(in approached);
-        if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
-        {
-            return false;
-        }
-
+        var hits = Open(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius);
         var isHit = false;
-        var hits = frame.Hits;
         while (true)
         {
             if (hits == 0)
@@ -173,7 +168,7 @@ internal sealed class FractalRayCaster(
             ref var inner = ref stack[depth + 1];
             inner.Enter(in frame, in child, entry);
             var bounds = child.Group ?? rayLevels.At(inner.RemainingLevels);
-            if (inner.Scale * inner.InverseScale > MaxCondition)
+            if (!child.IsScaling && inner.Scale * inner.InverseScale > MaxCondition)
             {
                 isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
                 if (isHit && search.StopsAtFirst)
@@ -192,12 +187,11 @@ internal sealed class FractalRayCaster(
 
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
-            var isBase = hierarchy.IsBase(inner.RemainingLevels);
-            if (!isBase && radius < search.Footprint.RadiusAt(inner.Start))
+            if (!bounds.IsBase && radius < search.Footprint.RadiusAt(inner.Start))
             {
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
-            else if (isBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
+            else if (bounds.IsBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
                 || search.BoundTests >= MaxBoundTests)
             {
                 isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
@@ -205,10 +199,12 @@ internal sealed class FractalRayCaster(
             else
             {
                 inner.SetBounds(bounds);
-                if (TryOpen(ref inner, child.HasTestedPlanes && !isPicked, ref stack.Entries(depth + 1), ref search, minRadius))
+                var innerHits = Open(
+                    ref inner, child.HasTestedPlanes && !isPicked, ref stack.Entries(depth + 1), ref search, minRadius);
+                if (innerHits != 0)
                 {
                     frame.Hits = hits;
-                    hits = inner.Hits;
+                    hits = innerHits;
                     depth++;
                     stack.EnsureRoom(depth + 1);
                     frame = ref stack[depth];
@@ -255,14 +251,15 @@ internal sealed class FractalRayCaster(
         return true;
     }
 
-    /// <summary>Tests the children of a sub-fractal; false where the ray misses all of them.</summary>
+    /// <summary>Tests the children of a sub-fractal.</summary>
     /// <param name="frame">The ray at the sub-fractal, whose bounds may be exchanged for those of its children themselves.</param>
     /// <param name="hasTestedPlanes">True where the ray is known to hit the planes of the sub-fractal.</param>
     /// <param name="entries">Receives where the ray enters the children.</param>
     /// <param name="search">Receives the cost.</param>
     /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
+    /// <returns>A bit for each child that the ray may hit.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool TryOpen(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
+    private static ulong Open(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
     {
         var bounds = frame.Bounds;
         var widening = frame.Widening(in search);
@@ -272,21 +269,23 @@ internal sealed class FractalRayCaster(
             search.BoundTests++;
             if (!bounds.MayHitPlanes(in frame, widening, limit))
             {
-                return false;
+                return 0;
             }
         }
 
-        var innerRadius = frame.Scale * bounds.MinInnerRadius;
-        var farthest = frame.Start + (MaxReach * frame.DistancePerParameter);
-        if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
+        if (bounds.Single != bounds)
         {
-            bounds = bounds.Single;
-            frame.SetBounds(bounds);
+            var innerRadius = frame.Scale * bounds.MinInnerRadius;
+            var farthest = frame.Start + (MaxReach * frame.DistancePerParameter);
+            if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
+            {
+                bounds = bounds.Single;
+                frame.SetBounds(bounds);
+            }
         }
 
         search.BoundTests += bounds.LanesPerOctant;
-        frame.Hits = bounds.FindHits(in frame, widening, limit, ref entries);
-        return frame.Hits != 0;
+        return bounds.FindHits(in frame, widening, limit, ref entries);
     }
 
     /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
