@@ -139,8 +139,11 @@ internal sealed class FractalRayCaster(
         frame.Size = _start.Size;
         frame.PathLength = 0;
         frame.Set(in approached);
-        var hits = Open(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius);
+        ref var entries = ref stack.Entries(0);
+        var hits = Open(ref frame, hasTestedPlanes: false, ref entries, ref search, minRadius);
         var isHit = false;
+        var hasPicks = hierarchy.HasPicks;
+        var isWide = search.Footprint.Radius > 0 || search.Footprint.Spread > 0;
         while (true)
         {
             if (hits == 0)
@@ -150,14 +153,15 @@ internal sealed class FractalRayCaster(
                     return isHit;
                 }
 
-                frame = ref stack[depth];
+                frame = ref Unsafe.Subtract(ref frame, 1);
+                entries = ref Unsafe.Subtract(ref entries, RayBounds.MaxChildren);
                 hits = frame.Hits;
                 continue;
             }
 
             var lane = BitOperations.TrailingZeroCount(hits);
             hits &= hits - 1;
-            double entry = Unsafe.Add(ref stack.Entries(depth), lane);
+            double entry = Unsafe.Add(ref entries, lane);
             if (frame.Start + (entry * frame.DistancePerParameter) > search.MaxDistance)
             {
                 continue;
@@ -165,7 +169,7 @@ internal sealed class FractalRayCaster(
 
             frame.Lane = lane;
             ref readonly var child = ref frame.Bounds.Child(frame.Octant, lane);
-            ref var inner = ref stack[depth + 1];
+            ref var inner = ref Unsafe.Add(ref frame, 1);
             inner.Enter(in frame, in child, entry);
             var bounds = child.Group ?? rayLevels.At(inner.RemainingLevels);
             if (!child.IsScaling && inner.Scale * inner.InverseScale > MaxCondition)
@@ -179,7 +183,7 @@ internal sealed class FractalRayCaster(
                 continue;
             }
 
-            var isPicked = hierarchy.HasPicks && child.Group is null && TryPick(in frame, in child, ref inner, ref bounds);
+            var isPicked = hasPicks && TryPick(in frame, in child, ref inner, ref bounds);
             if (bounds.IsEmpty || ((child.MayBeFar || isPicked) && !inner.TryApproach(bounds.Box, in search)))
             {
                 continue;
@@ -187,7 +191,7 @@ internal sealed class FractalRayCaster(
 
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
-            if (!bounds.IsBase && radius < search.Footprint.RadiusAt(inner.Start))
+            if (isWide && !bounds.IsBase && radius < search.Footprint.RadiusAt(inner.Start))
             {
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
@@ -199,15 +203,20 @@ internal sealed class FractalRayCaster(
             else
             {
                 inner.SetBounds(bounds);
-                var innerHits = Open(
-                    ref inner, child.HasTestedPlanes && !isPicked, ref stack.Entries(depth + 1), ref search, minRadius);
+                ref var innerEntries = ref Unsafe.Add(ref entries, RayBounds.MaxChildren);
+                var innerHits = Open(ref inner, child.HasTestedPlanes && !isPicked, ref innerEntries, ref search, minRadius);
                 if (innerHits != 0)
                 {
                     frame.Hits = hits;
                     hits = innerHits;
                     depth++;
-                    stack.EnsureRoom(depth + 1);
-                    frame = ref stack[depth];
+                    frame = ref inner;
+                    entries = ref innerEntries;
+                    if (stack.EnsureRoom(depth + 1))
+                    {
+                        frame = ref stack[depth];
+                        entries = ref stack.Entries(depth);
+                    }
                 }
 
                 continue;
@@ -230,6 +239,12 @@ internal sealed class FractalRayCaster(
     [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryPick(in RayFrame frame, in RayChild child, ref RayFrame inner, ref RayBounds bounds)
     {
+        (inner.Way, inner.Size) = (frame.Way, frame.Size);
+        if (child.Group is not null)
+        {
+            return false;
+        }
+
         Span<int> path = stackalloc int[child.PathLength];
         child.CopyPath(path);
         var (state, _) = hierarchy.Enter(path, new(frame.RemainingLevels, frame.Way, frame.Size), frame.Bounds.SubFractal);
@@ -289,6 +304,7 @@ internal sealed class FractalRayCaster(
     }
 
     /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryIntersectFlat(
         in LocalRay ray, int depth, int prefixLength, ref RaySearch search, QueryContext context, ref int pathLength)
     {
@@ -313,6 +329,7 @@ internal sealed class FractalRayCaster(
     }
 
     /// <summary>Tests a base mesh, stretched to the box of a sub-fractal.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryIntersectProxy(
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {

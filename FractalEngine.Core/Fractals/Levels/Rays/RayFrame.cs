@@ -150,8 +150,6 @@ internal struct RayFrame
         Factors = parent.Factors * child.Factors;
         PathLength = parent.PathLength + child.PathLength;
         RemainingLevels = child.RemainingLevels(parent.RemainingLevels);
-        Way = parent.Way;
-        Size = parent.Size;
         if (child.IsScaling)
         {
             Origin = Vector256.FusedMultiplyAdd(origin, Vector256.Create(child.Factors[0]), child.Map.Translation);
