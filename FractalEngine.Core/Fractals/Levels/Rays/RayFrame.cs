@@ -109,12 +109,13 @@ internal struct RayFrame
     }
 
     /// <summary>Begins with a ray in the frame of the sub-fractal.</summary>
-    /// <param name="ray">Starts near the box.</param>
-    public void Set(in LocalRay ray)
+    /// <param name="ray">The ray.</param>
+    /// <param name="way">How far it advances, to start near the box.</param>
+    public void Set(in LocalRay ray, double way)
     {
         var box = Bounds.Box;
-        Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseHalfExtent);
-        Start = ray.Start;
+        Origin = (ray.Origin + (Vector256.Create(way) * ray.Direction) - box.Centre) * Vector256.Create(box.InverseHalfExtent);
+        Start = ray.Start + way;
         Factors = Vector256.Create(
             box.InverseHalfExtent, ray.InverseScale * box.InverseHalfExtent, box.HalfExtent, ray.Scale * box.HalfExtent);
         // Rays of a query in the frame of the fractal have unit directions.
