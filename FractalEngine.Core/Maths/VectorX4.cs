@@ -118,7 +118,7 @@ internal readonly record struct VectorX4(Vector256<double> X, Vector256<double> 
     public static double HorizontalMax(Vector256<double> numbers)
     {
         var pair = Vector128.MaxNative(numbers.GetLower(), numbers.GetUpper());
-        return double.MaxNative(pair[0], pair[1]);
+        return Math.Max(pair[0], pair[1]);
     }
 
     /// <summary>Takes the larger of each component; the result for a NaN depends on the processor.</summary>

@@ -107,14 +107,14 @@ internal sealed class FractalRayCaster(
         }
 
         var rootBounds = rayLevels.At(_start.Level);
-        var way = rootBounds.Box.FindApproach(in ray, in search);
-        return way < double.PositiveInfinity
-            && Search(in ray, way, rootBounds, minRadius, ref search, context, ref pathLength);
+        var approach = rootBounds.Box.FindApproach(in ray, in search);
+        return approach < double.PositiveInfinity
+            && Search(in ray, approach, rootBounds, minRadius, ref search, context, ref pathLength);
     }
 
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="ray">In its frame.</param>
-    /// <param name="way">How far it advances to where it enters the box.</param>
+    /// <param name="approach">How far it advances to where it enters the box.</param>
     /// <param name="rootBounds">The bounds of the whole fractal.</param>
     /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
     /// <param name="search">Receives the hit and the cost.</param>
@@ -123,7 +123,7 @@ internal sealed class FractalRayCaster(
     [SkipLocalsInit]
     [MethodImpl(MethodImplOptions.NoInlining)]
     private bool Search(
-        in LocalRay ray, double way, RayBounds rootBounds, double minRadius, ref RaySearch search, QueryContext context,
+        in LocalRay ray, double approach, RayBounds rootBounds, double minRadius, ref RaySearch search, QueryContext context,
         ref int pathLength)
     {
         var stack = context.RayStack;
@@ -134,7 +134,7 @@ internal sealed class FractalRayCaster(
         frame.Way = _start.Way;
         frame.Size = _start.Size;
         frame.PathLength = 0;
-        frame.Set(in ray, way);
+        frame.Set(in ray, approach);
         ref var entries = ref stack.Entries(0);
         var hits = Open(ref frame, hasTestedPlanes: false, ref entries, ref search, minRadius);
         var isHit = false;

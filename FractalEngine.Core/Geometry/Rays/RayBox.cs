@@ -70,13 +70,13 @@ internal sealed class RayBox
     /// <returns>False where a ray from afar misses the box.</returns>
     public bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
-        var way = FindApproach(in ray, in search);
-        if (way is > 0 and < double.PositiveInfinity)
+        var approach = FindApproach(in ray, in search);
+        if (approach is > 0 and < double.PositiveInfinity)
         {
-            ray = ray.Advance(way);
+            ray = ray.Advance(approach);
         }
 
-        return way < double.PositiveInfinity;
+        return approach < double.PositiveInfinity;
     }
 
     /// <summary>Finds how far a ray may advance before it enters the box, if it is far away.</summary>

@@ -21,6 +21,9 @@ internal sealed record RayDescendant(
     // Of the computed norm of a map: the root of what is rounded, where two directions are lengthened alike.
     private const double NormError = 1e-7;
 
+    // Beyond it, what a product of maps rounds may be more than its norm tells.
+    private const double MaxCondition = 100;
+
     /// <summary>Lists the children of a sub-fractal, or of a group, that are not empty.</summary>
     /// <param name="subFractal">The sub-fractal or group.</param>
     /// <param name="level">Its remaining levels.</param>
@@ -36,16 +39,15 @@ internal sealed record RayDescendant(
         ChildrenOf(Target, RemainingLevels, hierarchy).Select(inner =>
         {
             var map = Map * inner.Map;
-            var inverse = inner.Inverse * Inverse;
-            var norm = NormBound(map, Norm * inner.Norm);
+            var norm = Norm * inner.Norm * (1 + RoundingErrors.Norm);
             return inner with
             {
                 Path = [.. Path, .. inner.Path],
                 LevelStep = LevelStep.Then(inner.LevelStep),
                 Map = map,
-                Inverse = inverse,
+                Inverse = inner.Inverse * Inverse,
                 Norm = norm,
-                InverseNorm = NormBound(inverse, InverseNorm * inner.InverseNorm),
+                InverseNorm = InverseNorm * inner.InverseNorm * (1 + RoundingErrors.Norm),
                 Box = BoundingBox.Intersection(inner.Box.Transform(Map), inner.Target.TransformedBox(map, norm)),
             };
         });
@@ -54,12 +56,26 @@ internal sealed record RayDescendant(
     {
         var levels = child.RemainingLevels(level);
         var inverse = child.InverseSimdMap.ToAffineMap();
+        var inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
         return new(
             [index], hierarchy.At(child, levels), child.Group is not null, levels, child.LevelStep, child.Map, inverse,
-            NormBound(child.Map, child.OperatorNormBound), NormBound(inverse, BoundingSphere.OperatorNormBound(inverse.Linear)), box);
+            NormBound(child, inverseNorm), inverseNorm, box);
     }
 
-    /// <summary>Bounds the factor by which a map lengthens vectors, often better than the product of the bounds of its parts.</summary>
-    private static double NormBound(AffineMap map, double bound) =>
-        Math.Min(bound * (1 + RoundingErrors.Norm), map.Linear.OperatorNorm() * (1 + NormError));
+    /// <summary>
+    /// Bounds the factor by which the map of a child lengthens vectors: where it is well conditioned, by the norm of the product of its
+    /// parts without their signs, which bounds what the product rounds too. That may be far less than the product of their norms.
+    /// </summary>
+    private static double NormBound(ChildInstance child, double inverseNorm)
+    {
+        var absolute = Matrix.Identity;
+        foreach (var edge in child.Edges)
+        {
+            absolute *= edge.Map.Linear.Absolute();
+        }
+
+        return child.OperatorNormBound * inverseNorm < MaxCondition
+            ? Math.Min(child.OperatorNormBound, absolute.OperatorNorm() * (1 + NormError))
+            : child.OperatorNormBound;
+    }
 }

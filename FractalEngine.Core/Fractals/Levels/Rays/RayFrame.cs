@@ -34,7 +34,7 @@ internal struct RayFrame
     /// <summary>Where the ray starts: x, y, z, 0.</summary>
     public Vector256<double> Origin;
 
-    /// <summary>Its direction, of about the length 1: x, y, z, 0.</summary>
+    /// <summary>Its direction, of a length from 1 to 2: x, y, z, 0.</summary>
     public Vector256<double> Direction;
 
     /// <summary>The direction without components of 0.</summary>
@@ -59,8 +59,8 @@ internal struct RayFrame
     public double Start;
 
     /// <summary>
-    /// Those from the query to this frame, then their inverses: <see cref="PerDistance"/>, <see cref="InverseScale"/>,
-    /// <see cref="DistancePerParameter"/>, <see cref="Scale"/>. One product leads to a child.
+    /// Factors from the query to this frame, then from this frame to the query: <see cref="PerDistance"/>,
+    /// <see cref="InverseScale"/>, <see cref="DistancePerParameter"/>, <see cref="Scale"/>. One product leads to a child.
     /// </summary>
     public Vector256<double> Factors;
 
@@ -110,12 +110,12 @@ internal struct RayFrame
 
     /// <summary>Begins with a ray in the frame of the sub-fractal.</summary>
     /// <param name="ray">The ray.</param>
-    /// <param name="way">How far it advances, to start near the box.</param>
-    public void Set(in LocalRay ray, double way)
+    /// <param name="approach">How far it advances, to start near the box.</param>
+    public void Set(in LocalRay ray, double approach)
     {
         var box = Bounds.Box;
-        Origin = (ray.Origin + (Vector256.Create(way) * ray.Direction) - box.Centre) * Vector256.Create(box.InverseHalfExtent);
-        Start = ray.Start + way;
+        Origin = (ray.Origin + (Vector256.Create(approach) * ray.Direction) - box.Centre) * Vector256.Create(box.InverseHalfExtent);
+        Start = ray.Start + approach;
         Factors = Vector256.Create(
             box.InverseHalfExtent, ray.InverseScale * box.InverseHalfExtent, box.HalfExtent, ray.Scale * box.HalfExtent);
         // Rays of a query in the frame of the fractal have unit directions.
