@@ -23,6 +23,7 @@ internal sealed class TriangleBvhRays(TriangleBvh bvh)
         ? TryIntersectNodes(in ray, ref search)
         : !bvh.AllFaces.IsEmpty && TryIntersectAllTriangles(in ray, ref search);
 
+    [SkipLocalsInit]
     private bool TryIntersectAllTriangles(in LocalRay ray, ref RaySearch search)
     {
         var triangleRay = new TriangleRay(in ray, search.Error);

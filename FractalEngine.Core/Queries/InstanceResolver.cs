@@ -58,7 +58,7 @@ internal static class InstanceResolver
             }
 
             map = SimdAffineMap.Compose(in map, child.SimdMap);
-            maxTranslation = Vector256.Max(maxTranslation, Vector256.Abs(map.Translation));
+            maxTranslation = Vector256.MaxNative(maxTranslation, Vector256.Abs(map.Translation));
             if (child.HasMapsOfLevels)
             {
                 foreach (var edge in child.Edges)

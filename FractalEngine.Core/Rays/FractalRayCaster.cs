@@ -107,18 +107,14 @@ internal sealed class FractalRayCaster(
         }
 
         var rootBounds = rayLevels.At(_start.Level);
-        var approached = ray;
-        if (!rootBounds.Box.TryApproach(ref approached, in search))
-        {
-            return false;
-        }
-
-        return Search(in ray, in approached, rootBounds, minRadius, ref search, context, ref pathLength);
+        var approach = rootBounds.Box.FindApproach(in ray, in search);
+        return approach < double.PositiveInfinity
+            && Search(in ray, approach, rootBounds, minRadius, ref search, context, ref pathLength);
     }
 
     /// <summary>Searches the whole fractal.</summary>
     /// <param name="ray">In its frame.</param>
-    /// <param name="approached">The same from where it enters the box.</param>
+    /// <param name="approach">How far it advances to where it enters the box.</param>
     /// <param name="rootBounds">The bounds of the whole fractal.</param>
     /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
     /// <param name="search">Receives the hit and the cost.</param>
@@ -127,7 +123,7 @@ internal sealed class FractalRayCaster(
     [SkipLocalsInit]
     [MethodImpl(MethodImplOptions.NoInlining)]
     private bool Search(
-        in LocalRay ray, in LocalRay approached, RayBounds rootBounds, double minRadius, ref RaySearch search, QueryContext context,
+        in LocalRay ray, double approach, RayBounds rootBounds, double minRadius, ref RaySearch search, QueryContext context,
         ref int pathLength)
     {
         var stack = context.RayStack;
@@ -138,14 +134,12 @@ internal sealed class FractalRayCaster(
         frame.Way = _start.Way;
         frame.Size = _start.Size;
         frame.PathLength = 0;
-        frame.Set(in approached);
-        if (!TryOpen(ref frame, hasTestedPlanes: false, ref stack.Entries(0), ref search, minRadius))
-        {
-            return false;
-        }
-
+        frame.Set(in ray, approach);
+        ref var entries = ref stack.Entries(0);
+        var hits = Open(ref frame, hasTestedPlanes: false, ref entries, ref search, minRadius);
         var isHit = false;
-        var hits = frame.Hits;
+        var hasPicks = hierarchy.HasPicks;
+        var isWide = search.Footprint.Radius > 0 || search.Footprint.Spread > 0;
         while (true)
         {
             if (hits == 0)
@@ -155,14 +149,15 @@ internal sealed class FractalRayCaster(
                     return isHit;
                 }
 
-                frame = ref stack[depth];
+                frame = ref Unsafe.Subtract(ref frame, 1);
+                entries = ref Unsafe.Subtract(ref entries, RayBounds.MaxChildren);
                 hits = frame.Hits;
                 continue;
             }
 
             var lane = BitOperations.TrailingZeroCount(hits);
             hits &= hits - 1;
-            double entry = Unsafe.Add(ref stack.Entries(depth), lane);
+            double entry = Unsafe.Add(ref entries, lane);
             if (frame.Start + (entry * frame.DistancePerParameter) > search.MaxDistance)
             {
                 continue;
@@ -170,10 +165,10 @@ internal sealed class FractalRayCaster(
 
             frame.Lane = lane;
             ref readonly var child = ref frame.Bounds.Child(frame.Octant, lane);
-            ref var inner = ref stack[depth + 1];
+            ref var inner = ref Unsafe.Add(ref frame, 1);
             inner.Enter(in frame, in child, entry);
             var bounds = child.Group ?? rayLevels.At(inner.RemainingLevels);
-            if (inner.Scale * inner.InverseScale > MaxCondition)
+            if (!child.IsScaling && inner.Scale * inner.InverseScale > MaxCondition)
             {
                 isHit |= TryIntersectFlat(in ray, depth, inner.PathLength, ref search, context, ref pathLength);
                 if (isHit && search.StopsAtFirst)
@@ -184,7 +179,7 @@ internal sealed class FractalRayCaster(
                 continue;
             }
 
-            var isPicked = hierarchy.HasPicks && child.Group is null && TryPick(in frame, in child, ref inner, ref bounds);
+            var isPicked = hasPicks && TryPick(in frame, in child, ref inner, ref bounds);
             if (bounds.IsEmpty || ((child.MayBeFar || isPicked) && !inner.TryApproach(bounds.Box, in search)))
             {
                 continue;
@@ -192,12 +187,11 @@ internal sealed class FractalRayCaster(
 
             bool isLeafHit;
             var radius = inner.Scale * bounds.Radius;
-            var isBase = hierarchy.IsBase(inner.RemainingLevels);
-            if (!isBase && radius < search.Footprint.RadiusAt(inner.Start))
+            if (isWide && !bounds.IsBase && radius < search.Footprint.RadiusAt(inner.Start))
             {
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
-            else if (isBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
+            else if (bounds.IsBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
                 || search.BoundTests >= MaxBoundTests)
             {
                 isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
@@ -205,13 +199,20 @@ internal sealed class FractalRayCaster(
             else
             {
                 inner.SetBounds(bounds);
-                if (TryOpen(ref inner, child.HasTestedPlanes && !isPicked, ref stack.Entries(depth + 1), ref search, minRadius))
+                ref var innerEntries = ref Unsafe.Add(ref entries, RayBounds.MaxChildren);
+                var innerHits = Open(ref inner, child.HasTestedPlanes && !isPicked, ref innerEntries, ref search, minRadius);
+                if (innerHits != 0)
                 {
                     frame.Hits = hits;
-                    hits = inner.Hits;
+                    hits = innerHits;
                     depth++;
-                    stack.EnsureRoom(depth + 1);
-                    frame = ref stack[depth];
+                    frame = ref inner;
+                    entries = ref innerEntries;
+                    if (stack.EnsureRoom(depth + 1))
+                    {
+                        frame = ref stack[depth];
+                        entries = ref stack.Entries(depth);
+                    }
                 }
 
                 continue;
@@ -234,6 +235,12 @@ internal sealed class FractalRayCaster(
     [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryPick(in RayFrame frame, in RayChild child, ref RayFrame inner, ref RayBounds bounds)
     {
+        (inner.Way, inner.Size) = (frame.Way, frame.Size);
+        if (child.Group is not null)
+        {
+            return false;
+        }
+
         Span<int> path = stackalloc int[child.PathLength];
         child.CopyPath(path);
         var (state, _) = hierarchy.Enter(path, new(frame.RemainingLevels, frame.Way, frame.Size), frame.Bounds.SubFractal);
@@ -249,20 +256,21 @@ internal sealed class FractalRayCaster(
         inner.SetBounds(bounds);
         if (!bounds.IsEmpty)
         {
-            inner.Set(in local);
+            inner.Set(in local, 0);
         }
 
         return true;
     }
 
-    /// <summary>Tests the children of a sub-fractal; false where the ray misses all of them.</summary>
+    /// <summary>Tests the children of a sub-fractal.</summary>
     /// <param name="frame">The ray at the sub-fractal, whose bounds may be exchanged for those of its children themselves.</param>
     /// <param name="hasTestedPlanes">True where the ray is known to hit the planes of the sub-fractal.</param>
     /// <param name="entries">Receives where the ray enters the children.</param>
     /// <param name="search">Receives the cost.</param>
     /// <param name="minRadius">Sub-fractals of this radius are replaced by the base mesh.</param>
+    /// <returns>A bit for each child that the ray may hit.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private static bool TryOpen(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
+    private static ulong Open(ref RayFrame frame, bool hasTestedPlanes, ref float entries, ref RaySearch search, double minRadius)
     {
         var bounds = frame.Bounds;
         var widening = frame.Widening(in search);
@@ -272,24 +280,27 @@ internal sealed class FractalRayCaster(
             search.BoundTests++;
             if (!bounds.MayHitPlanes(in frame, widening, limit))
             {
-                return false;
+                return 0;
             }
         }
 
-        var innerRadius = frame.Scale * bounds.MinInnerRadius;
-        var farthest = frame.Start + (MaxReach * frame.DistancePerParameter);
-        if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
+        if (bounds.Single != bounds)
         {
-            bounds = bounds.Single;
-            frame.SetBounds(bounds);
+            var innerRadius = frame.Scale * bounds.MinInnerRadius;
+            var farthest = frame.Start + (MaxReach * frame.DistancePerParameter);
+            if (innerRadius <= minRadius || innerRadius < search.Footprint.RadiusAt(farthest))
+            {
+                bounds = bounds.Single;
+                frame.SetBounds(bounds);
+            }
         }
 
         search.BoundTests += bounds.LanesPerOctant;
-        frame.Hits = bounds.FindHits(in frame, widening, limit, ref entries);
-        return frame.Hits != 0;
+        return bounds.FindHits(in frame, widening, limit, ref entries);
     }
 
     /// <summary>Searches a sub-fractal that its maps have flattened, in the frame of the whole fractal.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryIntersectFlat(
         in LocalRay ray, int depth, int prefixLength, ref RaySearch search, QueryContext context, ref int pathLength)
     {
@@ -314,6 +325,7 @@ internal sealed class FractalRayCaster(
     }
 
     /// <summary>Tests a base mesh, stretched to the box of a sub-fractal.</summary>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     private bool TryIntersectProxy(
         int depth, in RayFrame frame, RayBounds bounds, ref RaySearch search, QueryContext context, ref int pathLength)
     {

@@ -20,6 +20,8 @@ internal static class RayHitFactory
     /// <param name="maxDistance">Largest distance of a result.</param>
     /// <param name="mesh">The mesh of the instance.</param>
     /// <param name="map">From the mesh's frame to that of the ray.</param>
+    /// <remarks>Not inlined: beside a search, the compiler has no room left for its many operations on vectors.</remarks>
+    [MethodImpl(MethodImplOptions.NoInlining)]
     public static RayHit Create(
         Vector origin, Vector direction, in RaySearch search, double minDistance, double maxDistance,
         Mesh mesh, in SimdAffineMap map)

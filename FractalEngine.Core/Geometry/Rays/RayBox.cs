@@ -68,15 +68,30 @@ internal sealed class RayBox
     /// <param name="ray">In the frame of the box.</param>
     /// <param name="search">The limit of the search, and its rounding.</param>
     /// <returns>False where a ray from afar misses the box.</returns>
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public bool TryApproach(ref LocalRay ray, in RaySearch search)
     {
+        var approach = FindApproach(in ray, in search);
+        if (approach is > 0 and < double.PositiveInfinity)
+        {
+            ray = ray.Advance(approach);
+        }
+
+        return approach < double.PositiveInfinity;
+    }
+
+    /// <summary>Finds how far a ray may advance before it enters the box, if it is far away.</summary>
+    /// <param name="ray">In the frame of the box.</param>
+    /// <param name="search">The limit of the search, and its rounding.</param>
+    /// <returns>The distance, 0 near the box; infinite where a ray from afar misses it.</returns>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public double FindApproach(in LocalRay ray, in RaySearch search)
+    {
         var distance = Vector256.Abs(ray.Origin - Centre) * Vector256.Create(InverseHalfExtent);
-        return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) || TryApproachFromAfar(ref ray, in search);
+        return Vector256.LessThanAll(distance, Vector256.Create(MaxOriginDistance)) ? 0 : FindApproachFromAfar(in ray, in search);
     }
 
     [MethodImpl(MethodImplOptions.NoInlining)]
-    private bool TryApproachFromAfar(ref LocalRay ray, in RaySearch search)
+    private double FindApproachFromAfar(in LocalRay ray, in RaySearch search)
     {
         var least = Vector256.Create(MinRelativeComponent * ray.Speed);
         var isTiny = Vector256.LessThan(Vector256.Abs(ray.Direction), least);
@@ -90,16 +105,6 @@ internal sealed class RayBox
         var far = toCentre + half;
         var entry = Math.Max(Math.Max(near[0], near[1]), near[2]);
         var exit = Math.Min(Math.Min(far[0], far[1]), far[2]);
-        if (!(entry <= exit && exit >= 0 && entry + ray.Start <= search.MaxDistance))
-        {
-            return false;
-        }
-
-        if (entry > 0)
-        {
-            ray = ray.Advance(entry);
-        }
-
-        return true;
+        return entry <= exit && exit >= 0 && entry + ray.Start <= search.MaxDistance ? Math.Max(entry, 0) : double.PositiveInfinity;
     }
 }

@@ -90,6 +90,9 @@ internal sealed class RayBounds
     /// <summary>Number of lanes of an octant, those of missing children included.</summary>
     public int LanesPerOctant { get; }
 
+    /// <summary>True for a base mesh.</summary>
+    public bool IsBase => LanesPerOctant == 0;
+
     /// <summary>Half the diagonal of a box around the sub-fractal and the base mesh.</summary>
     public double Radius { get; }
 
@@ -194,7 +197,8 @@ internal sealed class RayBounds
         var last = Vector256.Create(limit);
         ref var row = ref Unsafe.Add(ref MemoryMarshal.GetArrayDataReference(_rows), (nint)(uint)(ray.Octant * LanesPerOctant * _rowCount));
         var hits = 0ul;
-        for (var first = 0; first < LanesPerOctant; first += LaneCount)
+        var lanes = LanesPerOctant;
+        for (var first = 0; first < lanes; first += LaneCount)
         {
             var near = Vector256.MaxNative(
                 Vector256.MaxNative(
@@ -298,7 +302,7 @@ internal sealed class RayBounds
     {
         var half = Vector128.MaxNative(v.GetLower(), v.GetUpper());
         half = Vector128.MaxNative(half, Vector128.Shuffle(half, Vector128.Create(2, 3, 0, 1)));
-        return Math.Max(half[0], half[1]);
+        return float.MaxNative(half[0], half[1]);
     }
 
     /// <summary>Where a ray crosses planes of common directions, as functions of their offsets.</summary>

@@ -1,3 +1,4 @@
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Geometry.Rays;
 using FractalEngine.Core.Maths;
 
@@ -32,16 +33,13 @@ internal readonly struct RayChild
             _path |= (ulong)descendant.Path[i] << (BitsPerIndex * i);
         }
 
-        Norm = descendant.InverseNorm * entered.InverseHalfExtent / parent.InverseHalfExtent;
-        InverseNorm = descendant.Norm * parent.InverseHalfExtent / entered.InverseHalfExtent;
         var scale = map.Linear.V1.X;
-        if (scale > 0 && map.Linear == Matrix.Diagonal(scale * Vector.One))
-        {
-            IsScaling = true;
-            Norm = scale;
-            InverseNorm = 1 / scale;
-        }
-
+        IsScaling = scale > 0 && map.Linear == Matrix.Diagonal(scale * Vector.One);
+        Factors = IsScaling
+            ? Vector256.Create(scale, scale, 1 / scale, 1 / scale)
+            : Vector256.Create(
+                1, descendant.InverseNorm * entered.InverseHalfExtent / parent.InverseHalfExtent,
+                1, descendant.Norm * parent.InverseHalfExtent / entered.InverseHalfExtent);
         MayBeFar = !RayFrame.IsNear(descendant.Box, parent, map);
     }
 
@@ -49,7 +47,7 @@ internal readonly struct RayChild
     [System.Diagnostics.CodeAnalysis.UnscopedRef]
     public ref readonly SimdAffineMap Map => ref _map;
 
-    /// <summary>True where the map scales all axes alike, by <see cref="Norm"/>, and does not rotate.</summary>
+    /// <summary>True where the map scales all axes alike, by the first of the <see cref="Factors"/>, and does not rotate.</summary>
     public bool IsScaling { get; }
 
     /// <summary>True where a ray that enters the child's bounds may still be far from those of the sub-fractal.</summary>
@@ -58,11 +56,9 @@ internal readonly struct RayChild
     /// <summary>True where a ray that enters the child's bounds hits the planes of the sub-fractal too.</summary>
     public bool HasTestedPlanes { get; }
 
-    /// <summary>Upper bound of the factor by which the map lengthens vectors.</summary>
-    public double Norm { get; }
-
-    /// <summary>Upper bound of the factor by which its inverse lengthens vectors.</summary>
-    public double InverseNorm { get; }
+    /// <summary>What leads to the <see cref="RayFrame.Factors"/> of the child, but for the length of the direction there.</summary>
+    /// <remarks>Where the map is a scaling, all of them are known; elsewhere the second and the last are upper bounds.</remarks>
+    public Vector256<double> Factors { get; }
 
     /// <summary>Number of child instances that lead to the sub-fractal.</summary>
     public int PathLength { get; }

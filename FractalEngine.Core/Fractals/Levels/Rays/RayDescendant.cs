@@ -18,6 +18,12 @@ internal sealed record RayDescendant(
     int[] Path, SubFractal Target, bool IsGroup, long RemainingLevels, LevelStep LevelStep, AffineMap Map, AffineMap Inverse, double Norm,
     double InverseNorm, BoundingBox Box)
 {
+    // Of the computed norm of a map: the root of what is rounded, where two directions are lengthened alike.
+    private const double NormError = 1e-7;
+
+    // Beyond it, what a product of maps rounds may be more than its norm tells.
+    private const double MaxCondition = 100;
+
     /// <summary>Lists the children of a sub-fractal, or of a group, that are not empty.</summary>
     /// <param name="subFractal">The sub-fractal or group.</param>
     /// <param name="level">Its remaining levels.</param>
@@ -53,6 +59,23 @@ internal sealed record RayDescendant(
         var inverseNorm = BoundingSphere.OperatorNormBound(inverse.Linear) * (1 + RoundingErrors.Norm);
         return new(
             [index], hierarchy.At(child, levels), child.Group is not null, levels, child.LevelStep, child.Map, inverse,
-            child.OperatorNormBound, inverseNorm, box);
+            NormBound(child, inverseNorm), inverseNorm, box);
+    }
+
+    /// <summary>
+    /// Bounds the factor by which the map of a child lengthens vectors: where it is well conditioned, by the norm of the product of its
+    /// parts without their signs, which bounds what the product rounds too. That may be far less than the product of their norms.
+    /// </summary>
+    private static double NormBound(ChildInstance child, double inverseNorm)
+    {
+        var absolute = Matrix.Identity;
+        foreach (var edge in child.Edges)
+        {
+            absolute *= edge.Map.Linear.Absolute();
+        }
+
+        return child.OperatorNormBound * inverseNorm < MaxCondition
+            ? Math.Min(child.OperatorNormBound, absolute.OperatorNorm() * (1 + NormError))
+            : child.OperatorNormBound;
     }
 }

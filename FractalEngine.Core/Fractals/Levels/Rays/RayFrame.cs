@@ -34,7 +34,7 @@ internal struct RayFrame
     /// <summary>Where the ray starts: x, y, z, 0.</summary>
     public Vector256<double> Origin;
 
-    /// <summary>Its direction, of about the length 1: x, y, z, 0.</summary>
+    /// <summary>Its direction, of a length from 1 to 2: x, y, z, 0.</summary>
     public Vector256<double> Direction;
 
     /// <summary>The direction without components of 0.</summary>
@@ -58,17 +58,23 @@ internal struct RayFrame
     /// <summary>Distance of the origin along the ray of the query.</summary>
     public double Start;
 
+    /// <summary>
+    /// Factors from the query to this frame, then from this frame to the query: <see cref="PerDistance"/>,
+    /// <see cref="InverseScale"/>, <see cref="DistancePerParameter"/>, <see cref="Scale"/>. One product leads to a child.
+    /// </summary>
+    public Vector256<double> Factors;
+
     /// <summary>Factor from distances along the ray of the query to the parameter of this one.</summary>
-    public double PerDistance;
-
-    /// <summary>Factor from the parameter of this ray to distances along the ray of the query.</summary>
-    public double DistancePerParameter;
-
-    /// <summary>Upper bound of the factor from lengths in these units to those of the query.</summary>
-    public double Scale;
+    public readonly double PerDistance => Factors[0];
 
     /// <summary>Upper bound of the factor from lengths of the query to those in these units.</summary>
-    public double InverseScale;
+    public readonly double InverseScale => Factors[1];
+
+    /// <summary>Factor from the parameter of this ray to distances along the ray of the query.</summary>
+    public readonly double DistancePerParameter => Factors[2];
+
+    /// <summary>Upper bound of the factor from lengths in these units to those of the query.</summary>
+    public readonly double Scale => Factors[3];
 
     /// <summary>The origin in single precision.</summary>
     public readonly Vector128<float> FloatOrigin => ToFloats(Origin);
@@ -103,16 +109,15 @@ internal struct RayFrame
     }
 
     /// <summary>Begins with a ray in the frame of the sub-fractal.</summary>
-    /// <param name="ray">Starts near the box.</param>
-    public void Set(in LocalRay ray)
+    /// <param name="ray">The ray.</param>
+    /// <param name="approach">How far it advances, to start near the box.</param>
+    public void Set(in LocalRay ray, double approach)
     {
         var box = Bounds.Box;
-        Origin = (ray.Origin - box.Centre) * Vector256.Create(box.InverseHalfExtent);
-        Start = ray.Start;
-        PerDistance = box.InverseHalfExtent;
-        DistancePerParameter = box.HalfExtent;
-        Scale = ray.Scale * box.HalfExtent;
-        InverseScale = ray.InverseScale * box.InverseHalfExtent;
+        Origin = (ray.Origin + (Vector256.Create(approach) * ray.Direction) - box.Centre) * Vector256.Create(box.InverseHalfExtent);
+        Start = ray.Start + approach;
+        Factors = Vector256.Create(
+            box.InverseHalfExtent, ray.InverseScale * box.InverseHalfExtent, box.HalfExtent, ray.Scale * box.HalfExtent);
         // Rays of a query in the frame of the fractal have unit directions.
         if (ray.Scale == 1 && ray.InverseScale == 1)
         {
@@ -120,7 +125,7 @@ internal struct RayFrame
         }
         else
         {
-            Turn(ray.Direction, box.InverseHalfExtent);
+            Turn(ray.Direction);
         }
     }
 
@@ -143,17 +148,12 @@ internal struct RayFrame
     {
         var origin = Vector256.FusedMultiplyAdd(Vector256.Create(entry), parent.Direction, parent.Origin);
         Start = parent.Start + (entry * parent.DistancePerParameter);
-        Scale = parent.Scale * child.InverseNorm;
-        InverseScale = parent.InverseScale * child.Norm;
-        PerDistance = parent.PerDistance * child.Norm;
-        DistancePerParameter = parent.DistancePerParameter * child.InverseNorm;
+        Factors = parent.Factors * child.Factors;
         PathLength = parent.PathLength + child.PathLength;
         RemainingLevels = child.RemainingLevels(parent.RemainingLevels);
-        Way = parent.Way;
-        Size = parent.Size;
         if (child.IsScaling)
         {
-            Origin = Vector256.FusedMultiplyAdd(origin, Vector256.Create(child.Norm), child.Map.Translation);
+            Origin = Vector256.FusedMultiplyAdd(origin, Vector256.Create(child.Factors[0]), child.Map.Translation);
             Direction = parent.Direction;
             FloatDirection = parent.FloatDirection;
             InverseDirection = parent.InverseDirection;
@@ -162,7 +162,7 @@ internal struct RayFrame
         else
         {
             Origin = child.Map.Apply(origin);
-            Turn(child.Map.ApplyLinear(parent.Direction), parent.PerDistance);
+            Turn(child.Map.ApplyLinear(parent.Direction));
         }
     }
 
@@ -193,15 +193,17 @@ internal struct RayFrame
         ? Avx.ConvertToVector128Single(v)
         : Vector128.Narrow(v.GetLower(), v.GetUpper());
 
-    /// <summary>Sets the direction after a map that is no mere scaling.</summary>
-    /// <param name="direction">The image of the parent's direction.</param>
-    /// <param name="perDistance">The factor of the parent.</param>
-    private void Turn(Vector256<double> direction, double perDistance)
+    /// <summary>Sets the direction after a map that is no mere scaling: a power of two makes its length one from 1 to 2, exactly.</summary>
+    /// <param name="direction">The image of a direction whose parameter has the factors so far.</param>
+    private void Turn(Vector256<double> direction)
     {
-        var speed = SimdAffineMap.ToVector(direction).Length();
-        PerDistance = perDistance * speed;
-        DistancePerParameter = 1 / PerDistance;
-        SetDirection(direction * Vector256.Create(1 / speed));
+        const int MantissaBits = 52;
+        const long One = 1023;
+        var exponent = ((BitConverter.DoubleToInt64Bits(Vector256.Dot(direction, direction)) >> MantissaBits) - One) >> 1;
+        var length = BitConverter.Int64BitsToDouble((One + exponent) << MantissaBits);
+        var inverseLength = BitConverter.Int64BitsToDouble((One - exponent) << MantissaBits);
+        Factors *= Vector256.Create(length, 1, inverseLength, 1);
+        SetDirection(direction * Vector256.Create(inverseLength));
     }
 
     private void SetDirection(Vector256<double> direction)

@@ -23,13 +23,17 @@ internal sealed class RayStack
 
     /// <summary>Makes room for a frame. Frames that were read before may be elsewhere then.</summary>
     /// <param name="depth">Depth of the frame.</param>
+    /// <returns>True where the frames have moved.</returns>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public void EnsureRoom(int depth)
+    public bool EnsureRoom(int depth)
     {
-        if (depth >= _frames.Length)
+        if (depth < _frames.Length)
         {
-            Grow(depth);
+            return false;
         }
+
+        Grow(depth);
+        return true;
     }
 
     /// <summary>Copies the indices of the child instances that lead to the child that was entered last.</summary>
