@@ -47,6 +47,16 @@ internal sealed class PlatformWindow : IDisposable
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height => _window.FramebufferSize.Y;
 
+    /// <summary>How large the system wants texts: 1 on a screen at 100 %.</summary>
+    public unsafe double ContentScale
+    {
+        get
+        {
+            GLFW.GetWindowContentScale(_window.WindowPtr, out var scale, out _);
+            return scale;
+        }
+    }
+
     /// <summary>Text in the title bar.</summary>
     public string Title
     {
