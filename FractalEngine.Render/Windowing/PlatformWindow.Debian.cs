@@ -70,7 +70,8 @@ internal sealed class PlatformWindow : IDisposable
         {
             var scale = isVisible ? XResources.ReadContentScale() : 1;
             var mode = new GraphicsMode(new ColorFormat(8, 8, 8, 8), 0, 0, 0);
-            window = new NativeWindow((int)(width * scale), (int)(height * scale), title, GameWindowFlags.Default, mode, DisplayDevice.Default);
+            window = new NativeWindow(
+                (int)(width * scale), (int)(height * scale), title, GameWindowFlags.Default, mode, DisplayDevice.Default);
             var context = new GraphicsContext(mode, window.WindowInfo, 3, 3, GraphicsContextFlags.ForwardCompatible);
             context.MakeCurrent(window.WindowInfo);
             context.LoadAll();

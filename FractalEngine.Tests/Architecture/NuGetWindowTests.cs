@@ -89,7 +89,13 @@ public class NuGetWindowTests
             public struct MouseWheelEventArgs { public float OffsetY; }
             public struct MouseButtonEventArgs { public MouseButton Button; public KeyModifiers Modifiers; }
             public struct MouseMoveEventArgs { public Vector2 Position; public float DeltaX, DeltaY; }
-            public struct KeyboardKeyEventArgs { public Keys Key; public int ScanCode; public KeyModifiers Modifiers; public bool IsRepeat; }
+            public struct KeyboardKeyEventArgs
+            {
+                public Keys Key;
+                public int ScanCode;
+                public KeyModifiers Modifiers;
+                public bool IsRepeat;
+            }
         }
 
         namespace OpenTK.Windowing.Desktop
@@ -172,7 +178,8 @@ public class NuGetWindowTests
                 compiler, "-nologo", "-noconfig", "-nostdlib", "-target:library", "-langversion:latest", "-nullable", "-unsafe",
                 "-nowarn:CS0436,CS8618,CS8603,CS0649", "-out:FractalEngine.Tests.dll",
                 .. references.Select(name => $"-reference:{Path.Combine(runtime, name)}.dll"),
-                $"-reference:{typeof(Renderer).Assembly.Location}", $"-reference:{typeof(FractalEngineException).Assembly.Location}", "OpenTK.cs", .. sources,
+                $"-reference:{typeof(Renderer).Assembly.Location}", $"-reference:{typeof(FractalEngineException).Assembly.Location}",
+                "OpenTK.cs", .. sources,
             ]);
         Assert.Equal(2, sources.Count(static name => name.EndsWith(".NuGet.cs", StringComparison.Ordinal)));
         Assert.Equal((0, ""), (exitCode, output));

@@ -177,7 +177,8 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         var second = SheetIndex > 0 ? int.MaxValue : Math.Max(8, columns - FirstColumn(lines));
         return [.. lines.SelectMany(line => line.SecondColumn is { } text
             ? TextLines.Wrap(text, second).Select((row, i) => line with { Text = i == 0 ? line.Text : "", SecondColumn = row })
-            : line.Text.Split('\n').SelectMany(row => TextLines.Wrap(row, columns, PartSeparator)).Select(row => line with { Text = row }))];
+            : line.Text.Split('\n').SelectMany(row => TextLines.Wrap(row, columns, PartSeparator))
+                .Select(row => line with { Text = row }))];
     }
 
     /// <summary>Returns where the second column begins, in characters; 0 without one.</summary>
