@@ -1,5 +1,7 @@
 using FractalEngine.Render.Windowing.Keyboard;
 using OpenTK.Windowing.GraphicsLibraryFramework;
+using GlfwModifiers = OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers;
+using KeyModifiers = FractalEngine.Render.Windowing.Keyboard.KeyModifiers;
 
 namespace FractalEngine.Render.Windowing;
 
@@ -20,10 +22,10 @@ internal static class GlfwKeys
     }
 
     /// <summary>Translates a set of modifier keys.</summary>
-    public static KeyModifiers ModifiersOf(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers modifiers) =>
-        (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Shift) ? KeyModifiers.Shift : 0)
-        | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Control) ? KeyModifiers.Control : 0)
-        | (modifiers.HasFlag(OpenTK.Windowing.GraphicsLibraryFramework.KeyModifiers.Alt) ? KeyModifiers.Alt : 0);
+    public static KeyModifiers ModifiersOf(GlfwModifiers modifiers) =>
+        (modifiers.HasFlag(GlfwModifiers.Shift) ? KeyModifiers.Shift : 0)
+        | (modifiers.HasFlag(GlfwModifiers.Control) ? KeyModifiers.Control : 0)
+        | (modifiers.HasFlag(GlfwModifiers.Alt) ? KeyModifiers.Alt : 0);
 
     /// <summary>Returns the modifier that a key is itself; none for any other key.</summary>
     public static KeyModifiers ModifierOf(Key key) => key switch

@@ -15,8 +15,9 @@ internal sealed class PlatformWindow : IDisposable
     private readonly uint _id;
     private readonly List<WindowEvent> _pending = [];
 
-    private PlatformWindow(NativeWindow window, GraphicsContext context)
+    private PlatformWindow(NativeWindow window, GraphicsContext context, double contentScale)
     {
+        ContentScale = contentScale;
         _window = window;
         _context = context;
         _id = SdlWindow.GetWindowId(window.WindowInfo.Handle);
@@ -34,6 +35,9 @@ internal sealed class PlatformWindow : IDisposable
 
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height => _window.ClientSize.Height;
+
+    /// <summary>How large the system wants texts: 1 on a screen at 100 %.</summary>
+    public double ContentScale { get; }
 
     /// <summary>Text in the title bar.</summary>
     public string Title
@@ -64,14 +68,16 @@ internal sealed class PlatformWindow : IDisposable
         NativeWindow? window = null;
         try
         {
+            var scale = isVisible ? XResources.ReadContentScale() : 1;
             var mode = new GraphicsMode(new ColorFormat(8, 8, 8, 8), 0, 0, 0);
-            window = new NativeWindow(width, height, title, GameWindowFlags.Default, mode, DisplayDevice.Default);
+            window = new NativeWindow(
+                (int)(width * scale), (int)(height * scale), title, GameWindowFlags.Default, mode, DisplayDevice.Default);
             var context = new GraphicsContext(mode, window.WindowInfo, 3, 3, GraphicsContextFlags.ForwardCompatible);
             context.MakeCurrent(window.WindowInfo);
             context.LoadAll();
             context.SwapInterval = isVisible ? 1 : 0;
             window.Visible = isVisible;
-            return new(window, context);
+            return new(window, context, scale);
         }
         catch (GraphicsContextException exception)
         {

@@ -5,6 +5,9 @@ using OpenTK.Mathematics;
 using OpenTK.Windowing.Common;
 using OpenTK.Windowing.Desktop;
 using OpenTK.Windowing.GraphicsLibraryFramework;
+using GlfwButton = OpenTK.Windowing.GraphicsLibraryFramework.MouseButton;
+using KeyModifiers = FractalEngine.Render.Windowing.Keyboard.KeyModifiers;
+using MouseButton = FractalEngine.Render.Windowing.Keyboard.MouseButton;
 
 namespace FractalEngine.Render.Windowing;
 
@@ -43,6 +46,16 @@ internal sealed class PlatformWindow : IDisposable
 
     /// <summary>Height of the framebuffer in pixels.</summary>
     public int Height => _window.FramebufferSize.Y;
+
+    /// <summary>How large the system wants texts: 1 on a screen at 100 %.</summary>
+    public unsafe double ContentScale
+    {
+        get
+        {
+            GLFW.GetWindowContentScale(_window.WindowPtr, out var scale, out _);
+            return scale;
+        }
+    }
 
     /// <summary>Text in the title bar.</summary>
     public string Title
@@ -210,11 +223,11 @@ internal sealed class PlatformWindow : IDisposable
             : new MouseReleased(button, position.X, position.Y, modifiers));
     }
 
-    private static MouseButton ButtonOf(OpenTK.Windowing.GraphicsLibraryFramework.MouseButton button) => button switch
+    private static MouseButton ButtonOf(GlfwButton button) => button switch
     {
-        OpenTK.Windowing.GraphicsLibraryFramework.MouseButton.Left => MouseButton.Left,
-        OpenTK.Windowing.GraphicsLibraryFramework.MouseButton.Middle => MouseButton.Middle,
-        OpenTK.Windowing.GraphicsLibraryFramework.MouseButton.Right => MouseButton.Right,
+        GlfwButton.Left => MouseButton.Left,
+        GlfwButton.Middle => MouseButton.Middle,
+        GlfwButton.Right => MouseButton.Right,
         _ => MouseButton.Other,
     };
 }

@@ -12,7 +12,7 @@ public sealed class RenderWindow : RenderContext
 
     /// <summary>Opens a window and makes its context current.</summary>
     /// <param name="title">Text in the title bar.</param>
-    /// <param name="width">Width of the contents, in pixels of a screen at 100 %. The system scales it up on denser screens.</param>
+    /// <param name="width">Width of the contents, in pixels of a screen at 100 %. It is scaled up on denser screens.</param>
     /// <param name="height">Height of the contents, in the same unit.</param>
     /// <param name="reportLeak">Receives a line for each GL object that outlives the window; standard error when null.</param>
     /// <exception cref="GraphicsUnavailableException">There is no display, or no OpenGL 3.3.</exception>
@@ -29,6 +29,9 @@ public sealed class RenderWindow : RenderContext
 
     /// <summary>Width divided by height of the framebuffer, never 0.</summary>
     public double Aspect => (double)Math.Max(1, Width) / Math.Max(1, Height);
+
+    /// <summary>How large the system wants texts: 1 on a screen at 100 %, 2 at 200 %. It may change as the window is moved.</summary>
+    public double ContentScale => Window.ContentScale;
 
     /// <summary>Text in the title bar.</summary>
     public string Title

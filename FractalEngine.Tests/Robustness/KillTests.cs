@@ -1,13 +1,16 @@
 using System.Diagnostics;
+using System.Globalization;
+using System.Text;
 using System.Text.RegularExpressions;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Robustness;
 
-/// <summary>Commands that are killed at any moment leave the old file or the new one, whole.</summary>
+/// <summary>Commands that are killed or interrupted at any moment leave the old file or the new one, whole.</summary>
 public sealed class KillTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
+    private readonly string?[] _inputs;
 
     public KillTests()
     {
@@ -20,80 +23,150 @@ public sealed class KillTests : IDisposable
         _folder.Write("menger.fdo", File.ReadAllText(Repository.Full("assets/fractals/menger-3.fdo"))
             .Replace("../models/", "", StringComparison.Ordinal));
         _folder.Write("scene.sdo", string.Concat(Enumerable.Range(0, 20_000).Select(i => $"o \"cube.obj\" (({i}, 0, 0), #, #)\n")));
+        _folder.Write("drop.sdo", "p \"cube.obj\" # 0.5\n");
+        _folder.Write("cubes.obj", "");
+        _inputs = [.. Directory.GetFiles(_folder.Path).Select(Path.GetFileName)];
     }
 
     public void Dispose() => _folder.Dispose();
 
-    [Theory]
+    [SkippableTheory]
     [InlineData("export with materials", 2)]
     [InlineData("count", 2)]
-    public void Command_KilledAtARandomMoment_LeavesTheOldFileOrTheNewOne(string command, int kills) => Check(command, kills);
+    public void Command_EndedAtARandomMoment_LeavesTheOldFileOrTheNewOne(string command, int kills) => Check(command, kills);
 
-    [Theory]
-    [InlineData("export", 70)]
-    [InlineData("export with materials", 70)]
-    [InlineData("save", 70)]
-    [InlineData("count", 70)]
+    /// <summary>So often as the variable FRACTALENGINE_KILLS says.</summary>
+    [SkippableTheory]
+    [MemberData(nameof(Commands))]
     [Trait("Category", "Soak")]
-    public void Command_KilledAtManyMoments_LeavesTheOldFileOrTheNewOne(string command, int kills) => Check(command, kills);
+    public void Command_EndedAtManyMoments_LeavesTheOldFileOrTheNewOne(string command)
+    {
+        if (command.Contains("animate", StringComparison.Ordinal) || command.Contains("render", StringComparison.Ordinal))
+        {
+            Display.Require();
+        }
+
+        Check(command, int.Parse(Environment.GetEnvironmentVariable("FRACTALENGINE_KILLS") ?? "12", CultureInfo.InvariantCulture));
+    }
+
+    /// <summary>All commands that write files.</summary>
+    public static TheoryData<string> Commands =>
+    [
+        "export", "export with materials", "export .ply", "export .stl", "export .3mf", "export .csv", "export .glb", "export .html",
+        "save", "count", "generate", "sky", "simulate", "approximate", "render .png", "render .exr", "render .hdr", "render traced",
+        "animate .png", "animate .apng",
+    ];
 
     private void Check(string command, int kills)
     {
-        // The main file last: the others of a pair are renamed before it.
-        (string[] targets, string[] old, string[] arguments) = command switch
+        Signals.Require("INT");
+        const string oldText = "# old\nv 0 0 0\n";
+        var ending = command.Split(' ')[^1];
+        // The main file last: the others of a pair are renamed before it. Null where no file may be there before.
+        (string[] targets, string?[] old, string[] arguments) = command switch
         {
-            "export" => (["flat.obj"], ["# old\nv 0 0 0\n"], ["export", "menger.fdo", "--output", "flat.obj"]),
+            "export" => (["flat.obj"], [oldText], ["export", "menger.fdo", "--output", "flat.obj"]),
             // Only material files of an export are replaced.
             "export with materials" => (
-                ["flat.mtl", "flat.obj"], ["# Materials of an exported mesh.\n", "# old\n"],
+                ["flat.mtl", "flat.obj"], ["# Materials of an exported mesh.\n", oldText],
                 ["export", "painted.fdo", "--output", "flat.obj"]),
             "save" => (["saved.sdo"], ["# old\nc # # 60\n"], ["save", "scene.sdo", "--output", "saved.sdo"]),
-            _ => ((string[])["counted.obj"], (string[])[CreateMesh()], (string[])["count", "counted.obj"]),
+            "count" => (["counted.obj"], [CreateMesh()], ["count", "counted.obj"]),
+            "generate" => (["made.obj"], [oldText], ["generate", "terrain", "--faces", "100000", "--output", "made.obj"]),
+            "sky" => (["sky.hdr"], [oldText], ["sky", "--output", "sky.hdr"]),
+            "simulate" => (["drop.csv"], [oldText], ["simulate", "drop.sdo", "--seconds", "20", "--output", "drop.csv"]),
+            "approximate" => (["found.fdo"], [oldText], ["approximate", "cubes.obj", "--output", "found.fdo"]),
+            "render traced" => (
+                ["r.png"], [oldText], ["render", "cube.obj", "--trace", "64", "--resolution", "64x48", "--output", "r.png"]),
+            "animate .png" => (
+                ["a-0001.png", "a-0002.png", "a-0003.png"], [oldText, oldText, oldText],
+                ["animate", "cube.obj", "--turntable", "--frames", "3", "--resolution", "64x48", "--output", "a.png"]),
+            "animate .apng" => (
+                ["a.apng"], [oldText],
+                ["animate", "cube.obj", "--turntable", "--frames", "3", "--resolution", "64x48", "--output", "a.apng"]),
+            _ when command.StartsWith("render", StringComparison.Ordinal) => (
+                ["r" + ending], [oldText], ["render", "cube.obj", "--resolution", "64x48", "--output", "r" + ending]),
+            _ => ((string[])["flat" + ending], (string?[])[oldText], (string[])["export", "menger.fdo", "--output", "flat" + ending]),
         };
-        WriteAll();
+        if (command == "approximate")
+        {
+            Assert.Equal((0, ""), Run(["export", "menger.fdo", "--depth", "2", "--no-materials", "--output", "cubes.obj"]));
+        }
+
+        WriteOld();
         var clock = Stopwatch.StartNew();
-        Assert.Equal(0, AppProcess.Run(_folder.Path, arguments).ExitCode);
+        Assert.Equal((0, ""), Run(arguments));
         var duration = clock.Elapsed;
         var expected = ReadAll();
         Assert.All(old.Zip(expected), pair => Assert.NotEqual(pair.First, pair.Second));
         Seeded.Run(kills, random =>
         {
-            WriteAll();
+            WriteOld();
+            var unfinished = Unfinished();
+            var isInterrupted = random.Next(2) == 0;
             using (var process = AppProcess.Start(_folder.Path, [], arguments))
             {
                 // From its first moment to a little after its last.
                 process.WaitForExit(random.NextDouble() * 1.1 * duration);
+                if (isInterrupted)
+                {
+                    // It may have ended by itself.
+                    _ = process.HasExited || Signals.TrySend(process, "INT");
+                    Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+                }
+
                 process.Kill();
                 process.WaitForExit();
+                Assert.True(!isInterrupted || process.ExitCode is 0 or 130, $"exit code {process.ExitCode}");
             }
 
             var texts = ReadAll();
             var newCount = texts.Zip(expected).TakeWhile(pair => pair.First == pair.Second).Count();
             // Only the first ones may be new without the others.
             Assert.All(
-                texts.Zip(old).Skip(newCount), pair => Assert.True(pair.First == pair.Second, $"{pair.First.Length} characters"));
+                texts.Zip(old).Skip(newCount), pair => Assert.True(pair.First == pair.Second, $"{pair.First?.Length} characters"));
+            if (isInterrupted)
+            {
+                Assert.Equal(unfinished, Unfinished());
+            }
         });
         // What was left behind is not read: the command does as it did.
-        WriteAll();
-        Assert.Equal(0, AppProcess.Run(_folder.Path, arguments).ExitCode);
+        WriteOld();
+        Assert.Equal((0, ""), Run(arguments));
         Assert.Equal(expected, ReadAll());
-        string[] known =
-            ["cube.obj", "menger.fdo", "scene.sdo", "painted.obj", "painted.mtl", "painted.fdo", .. targets];
         var names = string.Join('|', targets.Select(Regex.Escape));
         Assert.All(
-            Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Except(known),
+            Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Except(_inputs).Except(targets),
             name => Assert.Matches($@"^({names})\.\d+-[0-9a-f]{{32}}\.tmp$", name));
 
-        void WriteAll()
+        void WriteOld()
         {
             foreach (var (target, text) in targets.Zip(old))
             {
-                File.WriteAllText(_folder[target], text);
+                if (text is null)
+                {
+                    File.Delete(_folder[target]);
+                }
+                else
+                {
+                    File.WriteAllText(_folder[target], text);
+                }
             }
         }
 
-        string[] ReadAll() => Array.ConvertAll(targets, target => File.ReadAllText(_folder[target]));
+        // Each byte is a character.
+        string?[] ReadAll() => Array.ConvertAll(
+            targets, target => File.Exists(_folder[target]) ? File.ReadAllText(_folder[target], Encoding.Latin1) : null);
     }
+
+    /// <summary>Runs the program to its end, and returns its exit code, and what it says where that is not 0.</summary>
+    private (int ExitCode, string Error) Run(string[] arguments)
+    {
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, arguments);
+        return (exitCode, exitCode == 0 ? "" : error);
+    }
+
+    private string[] Unfinished() => [.. Directory.GetFiles(_folder.Path, "*.tmp").Order(StringComparer.Ordinal)];
 
     /// <summary>A mesh of some megabytes, whose copying takes time.</summary>
     private static string CreateMesh() => string.Concat(Enumerable.Range(0, 60_000).Select(i => $"v {i} 0 0\nv 0 {i} 1\nv 1 1 {i}\n"))

@@ -18,11 +18,14 @@ internal static class Signals
     /// <summary>Sends a signal, and returns when it is sent.</summary>
     /// <param name="process">The process that gets it.</param>
     /// <param name="signal">Name without SIG, such as "TERM".</param>
-    public static void Send(Process process, string signal)
+    public static void Send(Process process, string signal) => Assert.True(TrySend(process, signal));
+
+    /// <summary>Sends a signal as <see cref="Send"/> does, to a process that may have ended; returns whether it got it.</summary>
+    public static bool TrySend(Process process, string signal)
     {
         using var kill = Process.Start("kill", ["-s", signal, process.Id.ToString(CultureInfo.InvariantCulture)]);
         kill.WaitForExit();
-        Assert.Equal(0, kill.ExitCode);
+        return kill.ExitCode == 0;
     }
 
     private static bool IgnoresInterrupts() => File.Exists("/proc/self/status")

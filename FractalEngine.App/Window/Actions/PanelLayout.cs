@@ -19,18 +19,20 @@ internal sealed class PanelLayout
     private const double MinWidthForPhysics = 620;
 
     private readonly List<(string Name, UiPanel Panel)> _panels = [];
+    private readonly RenderWindow _window;
     private readonly string? _settingsPath;
     private readonly Action<string> _report;
     private WindowSettings _settings;
     private WindowSettings? _saved;
 
     /// <summary>Makes the layout of a window, with what it remembers of the last one.</summary>
-    /// <param name="window">The window with the clipboard.</param>
+    /// <param name="window">The window, with the clipboard and the size of texts.</param>
     /// <param name="settingsPath">Full path of the settings; null to remember nothing.</param>
     /// <param name="report">Shows a message.</param>
     /// <param name="build">Adds all widgets.</param>
     public PanelLayout(RenderWindow window, string? settingsPath, Action<string> report, Action<UserInterface> build)
     {
+        _window = window;
         _settingsPath = settingsPath;
         _report = report;
         _settings = WindowSettings.Read(settingsPath, report);
@@ -75,7 +77,7 @@ internal sealed class PanelLayout
     /// <summary>Builds the widgets anew, since what they show may have changed.</summary>
     public void Update(int width, int height)
     {
-        Ui.Scale = _settings.Scale ?? UserInterface.ScaleFor(width, height);
+        Ui.Scale = _settings.Scale ?? Math.Max(_window.ContentScale, UserInterface.ScaleFor(width, height));
         Ui.Theme = _settings.IsLight ? UiTheme.Light : UiTheme.Dark;
         Ui.Update(width, height);
     }

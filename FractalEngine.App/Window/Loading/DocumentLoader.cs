@@ -84,7 +84,8 @@ internal sealed class DocumentLoader(
     public void ShowTitle()
     {
         var trace = overlay.TraceText is { } text ? $", {text}" : "";
-        window.Title = $"{Path.GetFileName(State.FilePath)}{(State.Edits.IsEmpty ? "" : "*")}{trace} - FractalEngine";
+        var name = DisplayText.Escape(Path.GetFileName(State.FilePath));
+        window.Title = $"{name}{(State.Edits.IsEmpty ? "" : "*")}{trace} - FractalEngine";
     }
 
     public void Dispose()

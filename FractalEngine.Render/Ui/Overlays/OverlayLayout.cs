@@ -56,7 +56,7 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
                 fits &= layout.AddPanel(panel);
             }
 
-            // A panel that does not even fit at the smallest size is cut off by the edge of the frame.
+            // A panel that is too high even at the smallest size is cut off by the edge of the frame.
             if (fits || sheet == 0)
             {
                 return layout;
@@ -79,11 +79,12 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
     {
         var (cellWidth, lineHeight) = (Sheet.CellWidth, Sheet.CellHeight);
         var lines = Wrap(panel.Lines);
-        var firstColumn = lines.Where(row => row.SecondColumn is not null).Select(row => row.Text.Length + 2).DefaultIfEmpty(0).Max();
+        var title = panel.Title is null ? [] : Wrap([new(panel.Title)]);
+        var firstColumn = FirstColumn(lines);
         var columns = lines.Select(row => row.SecondColumn is null ? row.Text.Length : firstColumn + row.SecondColumn.Length)
-            .Append(panel.Title?.Length ?? 0).Append(panel.Progress is null ? 0 : 32).Max();
+            .Concat(title.Select(row => row.Text.Length)).Append(panel.Progress is null ? 0 : 32).Max();
         var width = (columns * cellWidth) + (2 * Padding);
-        var titleHeight = panel.Title is null ? 0 : lineHeight + (lineHeight / 3);
+        var titleHeight = title.Count == 0 ? 0 : (title.Count * lineHeight) + (lineHeight / 3);
         var barHeight = panel.Progress is null ? 0 : lineHeight;
         var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
 
@@ -96,11 +97,12 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         Quads.Add(new(x, y, width, height, ground, -1, 0.4f * lineHeight));
         var left = x + Padding;
         var top = y + (Padding * 3 / 4);
-        if (panel.Title is not null)
+        for (var i = 0; i < title.Count; i++)
         {
-            AddText(panel.Title, left, top, OverlayTone.Accent);
-            top += titleHeight;
+            AddText(title[i].Text, left, top + (i * lineHeight), OverlayTone.Accent);
         }
+
+        top += titleHeight;
 
         foreach (var row in lines)
         {
@@ -168,14 +170,20 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         return (x, y);
     }
 
-    /// <summary>Breaks lines of one column so that they fit the frame.</summary>
+    /// <summary>Breaks lines of one column so that they fit the frame, and those of two where no smaller size would.</summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
         var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
-        return [.. lines.SelectMany(line => line.SecondColumn is null
-            ? line.Text.Split('\n').SelectMany(row => TextLines.Wrap(row, columns, PartSeparator)).Select(row => line with { Text = row })
-            : [line])];
+        var second = SheetIndex > 0 ? int.MaxValue : Math.Max(8, columns - FirstColumn(lines));
+        return [.. lines.SelectMany(line => line.SecondColumn is { } text
+            ? TextLines.Wrap(text, second).Select((row, i) => line with { Text = i == 0 ? line.Text : "", SecondColumn = row })
+            : line.Text.Split('\n').SelectMany(row => TextLines.Wrap(row, columns, PartSeparator))
+                .Select(row => line with { Text = row }))];
     }
+
+    /// <summary>Returns where the second column begins, in characters; 0 without one.</summary>
+    private static int FirstColumn(IEnumerable<OverlayLine> lines) =>
+        lines.Where(static row => row.SecondColumn is not null).Select(static row => row.Text.Length + 2).DefaultIfEmpty(0).Max();
 
     private void AddText(string text, int x, int y, OverlayTone tone)
     {

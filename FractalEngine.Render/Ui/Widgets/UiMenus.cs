@@ -99,7 +99,12 @@ internal sealed class UiMenus(UiInput input, UiPainter painter, UiLayout layout,
         var indent = 2 * painter.CellWidth;
         painter.Print(isOn ? "✓" : "", rect with { X = rect.X + painter.Gap, Width = indent }, colour);
         painter.Print(label, rect with { X = rect.X + indent, Width = rect.Width - indent }, colour);
-        painter.Print(key, rect with { Width = rect.Width - painter.Gap }, colour, align: 1);
+        // In a narrow frame, the key gives way to the label.
+        if ((label.Length + key.Length + 3) * painter.CellWidth <= rect.Width - painter.Gap)
+        {
+            painter.Print(key, rect with { Width = rect.Width - painter.Gap }, colour, align: 1);
+        }
+
         if (touch.IsActivated)
         {
             Open(null);

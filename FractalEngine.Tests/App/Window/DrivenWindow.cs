@@ -19,7 +19,7 @@ internal sealed partial class DrivenWindow : IDisposable
     private readonly string _folder;
     private readonly string _window;
 
-    private DrivenWindow(string folder, string file, string[] options, bool isTraced)
+    private DrivenWindow(string folder, string file, string[] options, bool isTraced, string? resources)
     {
         _folder = folder;
         // The list of recent files is that of the test.
@@ -27,6 +27,7 @@ internal sealed partial class DrivenWindow : IDisposable
         {
             ["FRACTALENGINE_NO_WINDOW"] = null,
             ["XDG_CONFIG_HOME"] = Path.Combine(folder, "config"),
+            ["XENVIRONMENT"] = resources,
         };
         // What converges would change the pixels that a test looks at.
         string[] trace = isTraced || options.Contains("--trace") ? [] : ["--no-trace"];
@@ -65,11 +66,15 @@ internal sealed partial class DrivenWindow : IDisposable
     /// <summary>Opens a window as a user does, without any option. Skips the test where no window can be driven.</summary>
     public static DrivenWindow OpenPlainly(TemporaryFolder folder, string file) => Open(folder, file, [], isTraced: true);
 
-    private static DrivenWindow Open(TemporaryFolder folder, string file, string[] options, bool isTraced)
+    /// <summary>Opens a window on a desktop whose X resources are those of a file.</summary>
+    public static DrivenWindow OpenWithResources(TemporaryFolder folder, string file, string resources) =>
+        Open(folder, file, [], isTraced: false, folder[resources]);
+
+    private static DrivenWindow Open(TemporaryFolder folder, string file, string[] options, bool isTraced, string? resources = null)
     {
         Display.Require();
         Skip.IfNot(IsAvailable, "xdotool is not installed");
-        return new(folder.Path, file, options, isTraced);
+        return new(folder.Path, file, options, isTraced, resources);
     }
 
     private static bool IsAvailable => (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator)

@@ -38,6 +38,36 @@ public sealed class OpeningTests : IDisposable
         Assert.Equal(0, window.CloseWith("key Escape"));
     }
 
+    /// <summary>A name may hold a character that turns the direction of writing.</summary>
+    [SkippableFact]
+    public void Open_OfANameThatTurns_ShowsTheCharacterInTheTitle()
+    {
+        _folder.Write("turned\u202Egnp.sdo", CubeScene);
+        using var window = Open();
+        window.Send("key ctrl+o");
+        window.Type("tu");
+        window.Send("key Tab key Return");
+        window.WaitForTitle(@"turned\u202Egnp.sdo - FractalEngine");
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
+    /// <summary>By the resource Xft.dpi, as desktops set it.</summary>
+    [SkippableFact]
+    public void Window_OnAScreenAtTwoHundredPercent_IsTwiceAsLargeWithItsTexts()
+    {
+        SdlQueue.SkipElsewhere();
+        _folder.Write("resources", "Xft.dpi: 192\n");
+        using var window = DrivenWindow.OpenWithResources(_folder, "scene.sdo", "resources");
+        window.WaitForError(Warning);
+        Polling.WaitUntil(() => window.Size == (1280, 960), "large window");
+        // The menu bar, whose height is that of a line of text, is 21 pixels high at 100 %.
+        var image = window.ScreenshotWithPanels();
+        ReadOnlySpan<byte> Pixel(int y) => image.Pixels.AsSpan(4 * ((y * image.Width) + 900), 4);
+        Assert.True(Pixel(3).SequenceEqual(Pixel(32)), "the menu bar is low");
+        Assert.False(Pixel(3).SequenceEqual(Pixel(50)));
+        Assert.Equal(0, window.CloseWith("key Escape"));
+    }
+
     [SkippableFact]
     public void Open_OfABadFile_LeavesTheSceneAsItIs()
     {

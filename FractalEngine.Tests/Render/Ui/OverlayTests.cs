@@ -116,6 +116,19 @@ public sealed class OverlayTests
         Assert.Equal(Atlas.GlyphOf('H'), (int)rows[1].MinBy(static quad => quad.X)!.Glyph);
     }
 
+    /// <summary>As in the smallest windows, where no smaller text would help.</summary>
+    [Theory]
+    [InlineData(200, 150)]
+    [InlineData(300, 400)]
+    public void Question_WiderThanTheFrame_IsWrapped(int width, int height)
+    {
+        var question = OverlayPanel.OfTable(
+            OverlayAnchor.Centre, "A title that is wider than the frame", [("T", "a tree: a trunk with branches"), ("Esc", "cancel")]);
+        var layout = OverlayLayout.Create(Atlas, [question], width, height);
+        Assert.All(layout.Quads, quad => Assert.InRange(quad.X, 0, width - quad.Width));
+        Assert.Equal(5, layout.Quads.Count(static quad => quad.Glyph == Atlas.GlyphOf('r')));
+    }
+
     [Theory]
     [InlineData(null, 16)]
     [InlineData(32, 32)]

@@ -58,6 +58,19 @@ public class UserInterfaceMenuTests
         Assert.All(items, item => Assert.InRange(UiText.Find(ui, item).X, 20, 620));
     }
 
+    [Theory]
+    [InlineData(640, true)]
+    [InlineData(90, false)]
+    public void Menu_InANarrowFrame_LeavesItsKeysOut(int width, bool hasKeys)
+    {
+        var ui = new UserInterface(ui => ui.MenuBar(() => ui.Menu("File", () => ui.MenuItem("Save as", "Ctrl+S"), 16)));
+        ui.Update(width, 100);
+        var (x, y) = UiText.Find(ui, "File");
+        ui.Handle(new MousePressed(MouseButton.Left, x, y, KeyModifiers.None));
+        Assert.True(UiText.Contains(ui, "Save as"));
+        Assert.Equal(hasKeys, UiText.Contains(ui, "Ctrl+S"));
+    }
+
     [Fact]
     public void Menu_OpenWhileThePointerMovesOn_Follows()
     {
