@@ -2,6 +2,7 @@ using System.Collections.Immutable;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Fractals;
 
@@ -15,7 +16,7 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
 {
     private const int MaxInfiniteRounds = 100_000;
 
-    private const double ConvergenceTolerance = 2e-15;
+    private const double ConvergenceTolerance = 1e-15;
 
     /// <summary>Bounds of the levels so far; all of space where they don't converge, or leave the range of a double.</summary>
     public SphereAndBox Volume { get; private set; } = SphereAndBox.FromMesh(mesh);
@@ -56,15 +57,20 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
     {
         var count = repetition.Count ?? int.MaxValue;
         var roundCount = Math.Min(count, Math.Min(maxRounds, repetition.Count is null ? MaxInfiniteRounds : int.MaxValue));
+        var (earlier, previous) = (Volume, Volume);
         for (var round = 0; round < roundCount; round++)
         {
-            var previous = Volume;
+            (earlier, previous) = (previous, Volume);
             foreach (var set in Ascend(repetition.Round))
             {
                 yield return set;
             }
 
-            if (!Volume.IsFinite() || HasConverged(previous, Volume))
+            // Under mirrors, the last digits of coordinates may change to and fro without end.
+            var tolerance = ConvergenceTolerance * Volume.Box.Size.MaxAbsComponent();
+            if (!Volume.IsFinite() || Change(previous, Volume) <= tolerance || (repetition.Count is null
+                && Change(earlier, Volume) <= tolerance
+                && Change(previous, Volume) <= RoundingErrors.Chain * Volume.Box.MaxAbsCoordinate()))
             {
                 yield break;
             }
@@ -73,12 +79,11 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
         Volume = roundCount < count ? SphereAndBox.Unbounded : Volume;
     }
 
-    private static bool HasConverged(in SphereAndBox previous, in SphereAndBox current)
+    private static double Change(in SphereAndBox previous, in SphereAndBox current)
     {
         var minimumChange = (previous.Box.Minimum - current.Box.Minimum).MaxAbsComponent();
         var maximumChange = (previous.Box.Maximum - current.Box.Maximum).MaxAbsComponent();
         var radiusChange = Math.Abs(previous.Sphere.Radius - current.Sphere.Radius);
-        // Of coordinates, not of the size: under mirrors their last digits may change without end.
-        return Math.Max(radiusChange, Math.Max(minimumChange, maximumChange)) <= ConvergenceTolerance * current.Box.MaxAbsCoordinate();
+        return Math.Max(radiusChange, Math.Max(minimumChange, maximumChange));
     }
 }

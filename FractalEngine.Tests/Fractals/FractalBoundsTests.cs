@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Colliders;
@@ -191,6 +192,16 @@ public class FractalBoundsTests
         var fractal = Fractal.Of(Samples.Tetrahedron.Transform(v => v + centre)).Repeat(maps);
         AssertNear(fractal.WithDepth(100).Bounds, fractal.Bounds, 1e-9);
     });
+
+    [Theory]
+    [InlineData(4, -1)]
+    [InlineData(5, 1)]
+    public void Bounds_OfAMirrorThatIsRepeated_AreThoseOfItsLastSide(int depth, double minimum)
+    {
+        var mirror = new Transformation(new(2, 0, 0), Vector.Zero, new(-1, 1, 1));
+        var bounds = Fractal.Of(Shapes.Cube().Transform(v => 2 * v)).Repeat([mirror], depth).Bounds;
+        AssertNear(new(new(minimum, -1, -1), new(minimum + 2, 1, 1)), bounds, 1e-12);
+    }
 
     [Fact]
     public void Bounds_OfTheInfinite_AreTheLimitOfFiniteDepths() => Seeded.Run(50, random =>
