@@ -7,6 +7,11 @@ namespace FractalEngine.Render.Ui;
 /// <summary>The widgets of a panel, which scroll where they are higher than it.</summary>
 internal sealed class UiPanelBody(UiInput input, UiPainter painter, UiLayout layout, UiTargets targets, UiFocus focus)
 {
+    private const int RowsPerNotch = 3;
+
+    // What touchpads and fine wheels have turned that is less than a row.
+    private double _turnedRows;
+
     public int ScrollBarWidth => Math.Max(6, painter.CellWidth * 3 / 4);
 
     public void Add(UserInterface ui, UiPanel panel, UiRect body)
@@ -24,7 +29,9 @@ internal sealed class UiPanelBody(UiInput input, UiPainter painter, UiLayout lay
         var lastRow = (hidden + pitch - 1) / pitch;
         if (input.Wheel != 0 && targets.IsRootHot && body.Contains(input.X, input.Y) && hidden > 0)
         {
-            panel.ScrolledRows -= (int)Math.Round(3 * input.Wheel);
+            _turnedRows += RowsPerNotch * input.Wheel;
+            panel.ScrolledRows -= (int)_turnedRows;
+            _turnedRows %= 1;
             input.Wheel = 0;
             input.BuildsAgain = true;
         }

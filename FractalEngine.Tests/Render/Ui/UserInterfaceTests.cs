@@ -317,6 +317,13 @@ public class UserInterfaceTests
         Assert.Equal(30, built[0]);
         Assert.True(_ui.Handle(new WheelTurned(100, KeyModifiers.None)));
         Assert.Equal(0, built[0]);
+        // A touchpad turns by small parts of a notch.
+        for (var i = 0; i < 8; i++)
+        {
+            Assert.True(_ui.Handle(new WheelTurned(-0.125, KeyModifiers.None)));
+        }
+
+        Assert.Equal(3, built[0]);
     }
 
     [Fact]
