@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Numerics;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
@@ -57,19 +58,20 @@ internal sealed class LevelBoxes(Mesh mesh, int maxRounds = int.MaxValue)
     {
         var count = repetition.Count ?? int.MaxValue;
         var roundCount = Math.Min(count, Math.Min(maxRounds, repetition.Count is null ? MaxInfiniteRounds : int.MaxValue));
-        var (earlier, previous) = (Volume, Volume);
+        var checkpoint = Volume;
         for (var round = 0; round < roundCount; round++)
         {
-            (earlier, previous) = (previous, Volume);
+            var previous = Volume;
+            checkpoint = BitOperations.IsPow2(round) ? previous : checkpoint;
             foreach (var set in Ascend(repetition.Round))
             {
                 yield return set;
             }
 
-            // Under mirrors, the last digits of coordinates may change to and fro without end.
+            // Under mirrors, last digits may change without end, and come back to those of a checkpoint (cycles by R. Brent, 1980).
             var tolerance = ConvergenceTolerance * Volume.Box.Size.MaxAbsComponent();
             if (!Volume.IsFinite() || Change(previous, Volume) <= tolerance || (repetition.Count is null
-                && Change(earlier, Volume) <= tolerance
+                && Change(checkpoint, Volume) <= tolerance
                 && Change(previous, Volume) <= RoundingErrors.Chain * Volume.Box.MaxAbsCoordinate()))
             {
                 yield break;
