@@ -6,7 +6,8 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Documentation;
 
 /// <summary>
-/// Types every command of the program that the README and the pages of docs show, page by page, in their order; films of two frames.
+/// Types every command of the program that the README and the pages of docs show, page by page, in their order: films of two frames,
+/// and traces of four samples.
 /// </summary>
 public sealed partial class DocumentedCommandsTests : IDisposable
 {
@@ -52,7 +53,7 @@ public sealed partial class DocumentedCommandsTests : IDisposable
     /// <summary>Runs a command without a window; says what is wrong, or null.</summary>
     private string? Run(string command)
     {
-        var line = command.Replace("./run.sh", "bash run.sh", StringComparison.Ordinal);
+        var line = SampleCount().Replace(command.Replace("./run.sh", "bash run.sh", StringComparison.Ordinal), "--trace 4");
         line = line.Contains(" animate ", StringComparison.Ordinal) ? $"{FrameCount().Replace(line, "")} --frames 2" : line;
         using var process = Process.Start(new ProcessStartInfo("bash", ["-c", line])
         {
@@ -77,6 +78,9 @@ public sealed partial class DocumentedCommandsTests : IDisposable
 
     [GeneratedRegex(@" --frames \d+")]
     private static partial Regex FrameCount();
+
+    [GeneratedRegex(@"--trace \d+")]
+    private static partial Regex SampleCount();
 
     [GeneratedRegex(@"--output ([\w./]+\.\w+)")]
     private static partial Regex Output();
