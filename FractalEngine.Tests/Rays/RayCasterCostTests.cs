@@ -42,6 +42,7 @@ public class RayCasterCostTests
 
     [Theory]
     [InlineData("menger", 4)]
+    [InlineData("terrain", 8)]
     [InlineData("tree", 40)]
     [InlineData("infinite-menger", null)]
     public void Rays_WithAContext_AllocateNothing(string name, int? depth)
