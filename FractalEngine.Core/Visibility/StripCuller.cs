@@ -32,9 +32,6 @@ internal sealed class StripCuller
     private readonly List<int> _candidates = [];
     private readonly SkyPath _skyPath = new();
 
-    /// <summary>Instances and statistics of the run.</summary>
-    private StripOutput Output { get; set; } = new();
-
     /// <summary>Finds the visible instances of all objects.</summary>
     /// <param name="frame">Parameters of the strip.</param>
     /// <param name="objects">Objects of the scene.</param>
@@ -49,8 +46,7 @@ internal sealed class StripCuller
         in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> order, ReadOnlySpan<int> ranks, CulledObjectBvh? bvh,
         StripOutput output)
     {
-        Output = output;
-        Output.Clear();
+        output.Clear();
         _rasterizer.Clear(in frame);
         _candidates.Clear();
         if (bvh is null)
@@ -68,28 +64,29 @@ internal sealed class StripCuller
         var nextRank = 0;
         foreach (var rank in _candidates)
         {
-            Skip(in frame, objects, order[nextRank..rank]);
-            CullObject(new StripContext(in frame, objects[order[rank]], Output), objects[order[rank]]);
-            Output.EndObject();
+            Skip(in frame, objects, order[nextRank..rank], output);
+            CullObject(new StripContext(in frame, objects[order[rank]], output), objects[order[rank]]);
+            output.EndObject();
             nextRank = rank + 1;
         }
 
-        Skip(in frame, objects, order[nextRank..]);
+        Skip(in frame, objects, order[nextRank..], output);
     }
 
     /// <summary>Ends the results of objects outside the frustum, which are counted as if they had been tested.</summary>
-    private void Skip(in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> skipped)
+    private static void Skip(
+        in StripFrame frame, IReadOnlyList<CulledObject> objects, ReadOnlySpan<int> skipped, StripOutput output)
     {
         foreach (var index in skipped)
         {
             var hierarchy = objects[index].Hierarchy;
             if (frame.Left < frame.Right && !hierarchy.NodeAt(hierarchy.LevelCount).IsEmpty)
             {
-                Output.Statistics.VisitedNodes++;
-                Output.Statistics.OutsideFrustum++;
+                output.Statistics.VisitedNodes++;
+                output.Statistics.OutsideFrustum++;
             }
 
-            Output.EndObject();
+            output.EndObject();
         }
     }
 
@@ -118,9 +115,9 @@ internal sealed class StripCuller
     }
 
     /// <summary>The context of a root, which knows places in the fractal where colours depend on them.</summary>
-    private StripContext ContextOf(in StripContext context, CulledObject item, AffineMap rootToView, AffineMap rootToFractal) =>
+    private static StripContext ContextOf(in StripContext context, CulledObject item, AffineMap rootToView, AffineMap rootToFractal) =>
         item.Shading is { NeedsPlaces: true }
-            ? new(in context.Frame, item, Output, new(rootToFractal * rootToView.Inverse())) : context;
+            ? new(in context.Frame, item, context.Output, new(rootToFractal * rootToView.Inverse())) : context;
 
     private void VisitRoot(in StripContext context, LevelState state, AffineMap rootToView, CullingPath path)
     {

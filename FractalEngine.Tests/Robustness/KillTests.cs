@@ -62,8 +62,8 @@ public sealed class KillTests : IDisposable
         Signals.Require("INT");
         const string oldText = "# old\nv 0 0 0\n";
         var ending = command.Split(' ')[^1];
-        // The main file last: the others of a pair are renamed before it. Null where no file may be there before.
-        (string[] targets, string?[] old, string[] arguments) = command switch
+        // The main file last: the others of a pair are renamed before it.
+        (string[] targets, string[] old, string[] arguments) = command switch
         {
             "export" => (["flat.obj"], [oldText], ["export", "menger.fdo", "--output", "flat.obj"]),
             // Only material files of an export are replaced.
@@ -86,7 +86,7 @@ public sealed class KillTests : IDisposable
                 ["animate", "cube.obj", "--turntable", "--frames", "3", "--resolution", "64x48", "--output", "a.apng"]),
             _ when command.StartsWith("render", StringComparison.Ordinal) => (
                 ["r" + ending], [oldText], ["render", "cube.obj", "--resolution", "64x48", "--output", "r" + ending]),
-            _ => ((string[])["flat" + ending], (string?[])[oldText], (string[])["export", "menger.fdo", "--output", "flat" + ending]),
+            _ => ((string[])["flat" + ending], (string[])[oldText], (string[])["export", "menger.fdo", "--output", "flat" + ending]),
         };
         if (command == "approximate")
         {
@@ -125,7 +125,7 @@ public sealed class KillTests : IDisposable
             var newCount = texts.Zip(expected).TakeWhile(pair => pair.First == pair.Second).Count();
             // Only the first ones may be new without the others.
             Assert.All(
-                texts.Zip(old).Skip(newCount), pair => Assert.True(pair.First == pair.Second, $"{pair.First?.Length} characters"));
+                texts.Zip(old).Skip(newCount), pair => Assert.True(pair.First == pair.Second, $"{pair.First.Length} characters"));
             if (isInterrupted)
             {
                 Assert.Equal(unfinished, Unfinished());
@@ -144,20 +144,12 @@ public sealed class KillTests : IDisposable
         {
             foreach (var (target, text) in targets.Zip(old))
             {
-                if (text is null)
-                {
-                    File.Delete(_folder[target]);
-                }
-                else
-                {
-                    File.WriteAllText(_folder[target], text);
-                }
+                File.WriteAllText(_folder[target], text);
             }
         }
 
         // Each byte is a character.
-        string?[] ReadAll() => Array.ConvertAll(
-            targets, target => File.Exists(_folder[target]) ? File.ReadAllText(_folder[target], Encoding.Latin1) : null);
+        string[] ReadAll() => Array.ConvertAll(targets, target => File.ReadAllText(_folder[target], Encoding.Latin1));
     }
 
     /// <summary>Runs the program to its end, and returns its exit code, and what it says where that is not 0.</summary>

@@ -90,7 +90,7 @@ internal sealed class RayBounds
     /// <summary>Number of lanes of an octant, those of missing children included.</summary>
     public int LanesPerOctant { get; }
 
-    /// <summary>True for a base mesh.</summary>
+    /// <summary>True where a base mesh stands, which a ray tests instead of children.</summary>
     public bool IsBase => LanesPerOctant == 0;
 
     /// <summary>Half the diagonal of a box around the sub-fractal and the base mesh.</summary>
