@@ -21,6 +21,7 @@ namespace FractalEngine.Core.Fractals;
 /// </code></example>
 public sealed class Fractal : IEquatable<Fractal>
 {
+    private readonly Lazy<InstanceRange?> _range;
     private readonly Lazy<ImmutableArray<BigInteger?>> _instanceCounts;
     private readonly Lazy<ImmutableArray<Fractal>> _byMesh;
     private readonly Lazy<bool> _preservesOrientation;
@@ -67,9 +68,8 @@ public sealed class Fractal : IEquatable<Fractal>
         _preservesOrientation = new(() => description.PreservesOrientation);
         _hasColours = new(() => description.HasColours);
         Graph = new(baseMeshes, description.AllParts());
-        _instanceCounts = new(() => description.HasSizes
-            ? [.. Enumerable.Range(0, baseMeshes.Length).Select(mesh => CountStates(mesh, FractalLimits.CountedInstances.Value)?.Exact)]
-            : Graph.ChainCounts);
+        _range = new(() => CountStates(null, FractalLimits.CountedInstances.Value));
+        _instanceCounts = new(() => description.HasSizes ? CountStatesByMesh() : Graph.ChainCounts);
         _byMesh = new(() => baseMeshes.Length == 1 ? [this] : [.. Enumerable.Range(0, baseMeshes.Length).Select(OnlyMesh)]);
         _levelCount = new(() => description.LevelCount);
         _bounds = new(() => FractalBounds.ComputeBox(this));
@@ -128,7 +128,12 @@ public sealed class Fractal : IEquatable<Fractal>
     /// Number of different places up to which they are enumerated; null for <see cref="FractalLimits.CountedInstances"/>.
     /// </param>
     /// <returns>Null where there is no hierarchy of the fractal, or it has more than thousand levels.</returns>
-    public InstanceRange? CountRange(long? budget = null) => CountStates(null, budget ?? FractalLimits.CountedInstances.Value);
+    public InstanceRange? CountRange(long? budget = null) => budget is { } states ? CountStates(null, states) : _range.Value;
+
+    /// <summary>Counts the instances of each mesh; where all together are too many to enumerate, no mesh has fewer places.</summary>
+    private ImmutableArray<BigInteger?> CountStatesByMesh() =>
+        BaseMeshes.Length == 1 || _range.Value?.Exact is null ? [.. BaseMeshes.Select(_ => _range.Value?.Exact)]
+            : [.. Enumerable.Range(0, BaseMeshes.Length).Select(mesh => CountStates(mesh, FractalLimits.CountedInstances.Value)?.Exact)];
 
     /// <summary>Counts the instances that show a mesh; null for all that count.</summary>
     private InstanceRange? CountStates(int? mesh, long budget)

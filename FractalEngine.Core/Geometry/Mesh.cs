@@ -155,6 +155,11 @@ public sealed record Mesh
     /// <summary>Computes the box of all vertices under a map, unused ones included. Cost O(vertices).</summary>
     internal BoundingBox ComputeBounds(AffineMap map)
     {
+        if (map == AffineMap.Identity)
+        {
+            return Bounds;
+        }
+
         var box = BoundingBox.Empty;
         for (var vertex = 0; vertex < VertexCount; vertex++)
         {

@@ -28,11 +28,11 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
     public static SurfaceSummary Of(LoadedScene scene)
     {
         ArgumentNullException.ThrowIfNull(scene);
-        var open = scene.Models.SelectMany(OpenEdges).Select(static edge => ((string, Vector)?)edge).FirstOrDefault();
-        var (area, volume) = ((double?)0, (double?)0);
+        var open = FindOpen(scene);
+        var (area, volume) = (0.0, (double?)0);
         // Many objects may share a model.
         var known = new Dictionary<Model, (double? Area, double? Volume)>(ReferenceEqualityComparer.Instance);
-        var left = MaxExpandedFaces;
+        var others = new List<PlacedModel>();
         foreach (var placed in scene.Objects)
         {
             if (!known.TryGetValue(placed.Model, out var own))
@@ -41,30 +41,58 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
             }
 
             var linear = placed.ObjectToWorld.Linear;
-            area += (linear.IsSimilarity() ? own.Area * linear.V1.LengthSquared() : null) ?? ExpandedArea(placed, ref left);
             volume += own.Volume * Math.Abs(linear.Determinant());
-        }
-
-        return new(area, volume, open);
-    }
-
-    /// <summary>Finds an open edge of each mesh of a model that has one.</summary>
-    private static IEnumerable<(string Mesh, Vector Edge)> OpenEdges(Model model)
-    {
-        foreach (var (index, mesh) in (model is FractalModel { Fractal: var fractal } ? fractal.BaseMeshes : [model.Mesh]).Index())
-        {
-            if (SurfaceEdges.Of(mesh).FirstOpen is { } edge)
+            if (own.Area is { } ownArea && linear.IsSimilarity())
             {
-                yield return (model.MeshNameAt(index), edge);
+                area += ownArea * linear.V1.LengthSquared();
+            }
+            else
+            {
+                others.Add(placed);
             }
         }
+
+        return new(area + ExpandedArea(others), volume, open);
     }
 
-    private static double? ExpandedArea(PlacedModel placed, ref long left)
+    /// <summary>Finds an open edge of the first mesh that has one.</summary>
+    private static (string Mesh, Vector Edge)? FindOpen(LoadedScene scene)
     {
-        left -= (long)BigInteger.Min(placed.Model.FaceCount ?? MaxExpandedFaces + 1, MaxExpandedFaces + 1);
-        var isComponentwise = placed.Model is FractalModel { Fractal.Description.Composition: Composition.Componentwise };
-        return left >= 0 && !isComponentwise ? new[] { placed }.Flatten(MaxExpandedFaces).SurfaceArea() : null;
+        foreach (var model in scene.Models)
+        {
+            foreach (var (index, mesh) in (model is FractalModel { Fractal: var fractal } ? fractal.BaseMeshes : [model.Mesh]).Index())
+            {
+                if (SurfaceEdges.Of(mesh).FirstOpen is { } edge)
+                {
+                    return (model.MeshNameAt(index), edge);
+                }
+            }
+        }
+
+        return null;
+    }
+
+    /// <summary>Measures objects whose area does not follow from that of their base meshes, all or none.</summary>
+    private static double? ExpandedArea(List<PlacedModel> objects)
+    {
+        var (area, faces) = (0.0, BigInteger.Zero);
+        foreach (var placed in objects)
+        {
+            var isComponentwise = placed.Model is FractalModel { Fractal.Description.Composition: Composition.Componentwise };
+            faces += (isComponentwise ? null : placed.Model.FaceCount) ?? MaxExpandedFaces + 1;
+        }
+
+        if (faces > MaxExpandedFaces)
+        {
+            return null;
+        }
+
+        foreach (var placed in objects)
+        {
+            area += new[] { placed }.Flatten(MaxExpandedFaces).SurfaceArea();
+        }
+
+        return area;
     }
 
     private static double? MeasureArea(Model model) => model is not FractalModel { Fractal: var fractal }
