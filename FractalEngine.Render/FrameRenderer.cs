@@ -35,7 +35,7 @@ public sealed class FrameRenderer : IDisposable
     private Framebuffer? _sceneTarget;
     private Framebuffer? _resolvedTarget;
     private Framebuffer? _gatheredTarget;
-    private int _sampleCount;
+    private (int Width, int Height, int PixelSize, int Samples, bool KeepsLight) _targetState;
     private int _meanCount;
     private bool _isDisposed;
 
@@ -155,7 +155,8 @@ public sealed class FrameRenderer : IDisposable
         MakeCurrent();
         scene?.MakeCurrent();
         _context.ApplySettings(settings);
-        var target = EnsureTarget(width, height, Math.Clamp(settings.Samples, 0, _context.MaxSampleCount), settings.KeepsLight);
+        var target = EnsureTarget(width, height, settings);
+        (width, height) = (target.Width, target.Height);
         var frame = FrameView.Create(view, width, height, scene?.ClipPlanes(view, width, height, settings)) with { Offset = offset };
         if (scene?.ProbeBefore(in frame, settings) is { } probe)
         {
@@ -363,10 +364,11 @@ public sealed class FrameRenderer : IDisposable
     private bool KeepsLight => _sceneTarget?.Format == PixelInternalFormat.Rgba32f;
 
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
-    private Framebuffer EnsureTarget(int width, int height, int sampleCount, bool keepsLight)
+    private Framebuffer EnsureTarget(int width, int height, RenderSettings settings)
     {
-        if (_sceneTarget is not null
-            && (_sceneTarget.Width, _sceneTarget.Height, _sampleCount, KeepsLight) == (width, height, sampleCount, keepsLight))
+        var sampleCount = settings.PixelSize > 1 ? 0 : Math.Clamp(settings.Samples, 0, _context.MaxSampleCount);
+        var state = (width, height, settings.PixelSize, sampleCount, settings.KeepsLight);
+        if (_sceneTarget is not null && _targetState == state)
         {
             return _sceneTarget;
         }
@@ -382,9 +384,10 @@ public sealed class FrameRenderer : IDisposable
         _gatheredTarget?.Dispose();
         // Stays null if one of the allocations fails.
         (_sceneTarget, _resolvedTarget, _gatheredTarget) = (null, null, null);
-        _sceneTarget = new(_context.Resources, "scene", width, height, sampleCount, keepsLight);
+        var (drawnWidth, drawnHeight) = (1 + ((width - 1) / settings.PixelSize), 1 + ((height - 1) / settings.PixelSize));
+        _sceneTarget = new(_context.Resources, "scene", drawnWidth, drawnHeight, sampleCount, settings.KeepsLight);
         _resolvedTarget = new(_context.Resources, "resolved frame", width, height, _sceneTarget.Format);
-        _sampleCount = sampleCount;
+        _targetState = state;
         return _sceneTarget;
     }
 

@@ -99,7 +99,8 @@ internal sealed class SceneWindow : IDisposable
     private Document? Document => _loader.Document;
 
     /// <summary>Whether the last frame was coarse, and nothing moves any more.</summary>
-    private bool NeedsFullFrame => _windowRenderer.IsReducedQuality && Document?.IsMoving != true;
+    private bool NeedsFullFrame =>
+        _windowRenderer.IsReducedQuality && Document?.IsMoving != true && _windowRenderer.TimeToFullFrame <= TimeSpan.Zero;
 
     private bool NeedsRefresh =>
         _isVisible && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 } && Size != _refusedSize;
@@ -171,6 +172,11 @@ internal sealed class SceneWindow : IDisposable
         if (Document?.IsMoving == true)
         {
             return TimeUntil(_lastAdvance + FrameTime);
+        }
+
+        if (_windowRenderer is { IsReducedQuality: true, TimeToFullFrame: { Ticks: > 0 } left })
+        {
+            return left;
         }
 
         if (_loader.IsBusy || _actions.Jobs.Any(static job => job.IsRunning))
@@ -256,7 +262,8 @@ internal sealed class SceneWindow : IDisposable
         if (needsDraw)
         {
             // First of all, so that a trace of an earlier view takes no time from the frame.
-            _tracing.Update(Document, _actions.Settings, _window.Width, _window.Height);
+            var isStill = Document?.IsMoving != true && !_windowRenderer.FollowsAtOnce;
+            _tracing.Update(Document, _actions.Settings, _window.Width, _window.Height, isStill);
             Draw();
         }
         else

@@ -42,7 +42,7 @@ internal sealed record CameraFlight(int FrameCount, double Seconds, double Slowe
             var view = Translate(frameCase.View, 0.5 * (1 - Math.Cos(2 * Math.PI * (start / Duration))) * path);
             var drawnView = next ?? view;
             next = view;
-            frame.Draw(renderer, drawnView, FrameCase.Width, FrameCase.Height, quality.Adapt(settings), view);
+            frame.Draw(renderer, drawnView, FrameCase.Width, FrameCase.Height, quality.Adapt(settings, mayEnlarge: true), view);
             frame.Finish();
             var time = clock.Elapsed - start;
             quality.RecordFrameTime(time);

@@ -78,12 +78,23 @@ internal sealed class Framebuffer : GlObject
         GL.Viewport(0, 0, Width, Height);
     }
 
-    /// <summary>Averages the samples into another framebuffer of the same size, in linear light.</summary>
+    /// <summary>
+    /// Averages the samples into another framebuffer of the same size, in linear light, or enlarges pixels of one sample to another size.
+    /// </summary>
     public void ResolveTo(Framebuffer target)
     {
         // With this state on, drivers decode before averaging (GL 4.4, §18.3.1). It leaves plain copies unchanged.
         GL.Enable(EnableCap.FramebufferSrgb);
-        BlitTo(target._name, target.Width, target.Height);
+        if ((target.Width, target.Height) == (Width, Height))
+        {
+            BlitTo(target._name, target.Width, target.Height);
+            return;
+        }
+
+        GL.BindFramebuffer(FramebufferTarget.ReadFramebuffer, _name);
+        GL.BindFramebuffer(FramebufferTarget.DrawFramebuffer, target._name);
+        GL.BlitFramebuffer(
+            0, 0, Width, Height, 0, 0, target.Width, target.Height, ClearBufferMask.ColorBufferBit, BlitFramebufferFilter.Linear);
     }
 
     /// <summary>Copies the depths of all samples.</summary>

@@ -4,13 +4,13 @@ namespace FractalEngine.Render.Views;
 
 /// <summary>
 /// Adapts render settings to a moving camera: no multisampling, at most 150,000 instances, kept shadow maps, and
-/// coarser detail while frames are slow.
+/// larger pixels and coarser detail while frames are slow.
 /// </summary>
 /// <remarks>
-/// The minimum projected size stays between 3 and 24 pixels, 8 with shadows, and follows the frame time so that ten frames a second are
-/// drawn. It changes at most every fourth frame, since each change discards what was culled ahead. Draw with
-/// <see cref="Adapt(RenderSettings)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with
-/// the full settings.
+/// Where frames take more than 50 ms, squares of up to 3 × 3 pixels are drawn as one, if that is allowed. The minimum projected size stays
+/// between 3 and 24 of what is drawn as a pixel, 8 with shadows, and follows the frame time so that ten frames a second are drawn. Both
+/// change at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings, bool)"/> and pass the time
+/// taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
 {
@@ -27,6 +27,10 @@ public sealed class AdaptiveQuality
     private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.09);
     private static readonly TimeSpan FastFrameTime = TimeSpan.FromSeconds(0.05);
 
+    // A quarter of the pixels takes no less than a quarter of the time: with four times as many, frames stay below the limit.
+    private static readonly TimeSpan FastEnlargedTime = 0.25 * FastFrameTime;
+    private const int MaxPixelFactor = 3;
+
     // Each change discards what was culled ahead.
     private const int FramesBetweenChanges = 4;
     private const double CoarseningFactor = 1.4;
@@ -35,27 +39,38 @@ public sealed class AdaptiveQuality
     private double _minProjectedSize = FinestProjectedSize;
     private double _coarsestSize = CoarsestProjectedSize;
     private int _framesSinceChange;
-    private (RenderSettings Source, double MinProjectedSize, RenderSettings Adapted)? _lastAdapted;
+    private int _pixelFactor = 1;
+    private bool _mayEnlarge;
+    private (RenderSettings Source, double MinProjectedSize, int PixelSize, RenderSettings Adapted)? _lastAdapted;
 
     /// <summary>Returns the settings for frames of a moving camera.</summary>
     /// <param name="settings">Settings of a camera at rest.</param>
+    /// <param name="mayEnlarge">Whether slow frames may have larger pixels.</param>
     /// <returns>The same object for as long as nothing has changed.</returns>
-    public RenderSettings Adapt(RenderSettings settings)
+    public RenderSettings Adapt(RenderSettings settings, bool mayEnlarge = false)
     {
+        ArgumentNullException.ThrowIfNull(settings);
+        _mayEnlarge = mayEnlarge;
+        var pixelSize = mayEnlarge ? _pixelFactor * settings.PixelSize : settings.PixelSize;
         var hasShadows = settings is { Shadows: true, Shading: Shading.PerPixel, Wireframe: false };
         _coarsestSize = hasShadows ? CoarsestShadedSize : CoarsestProjectedSize;
         _minProjectedSize = Math.Min(_minProjectedSize, _coarsestSize);
-        if (_lastAdapted is not { } last || last.Source != settings || last.MinProjectedSize != _minProjectedSize)
+        if (_lastAdapted is not { } last || last.Source != settings
+            || (last.MinProjectedSize, last.PixelSize) != (_minProjectedSize, pixelSize))
         {
             var culling = settings.Culling is null ? null : Adapt(settings.Culling);
-            last = (settings, _minProjectedSize, settings with { Samples = 0, FitShadowsToView = false, Culling = culling });
+            var adapted = settings with { Samples = 0, PixelSize = pixelSize, FitShadowsToView = false, Culling = culling };
+            last = (settings, _minProjectedSize, pixelSize, adapted);
             _lastAdapted = last;
         }
 
         return last.Adapted;
     }
 
-    /// <summary>Adjusts the detail to the time that a frame took: above 90 ms it gets coarser, below 50 ms finer.</summary>
+    /// <summary>
+    /// Adjusts pixels and detail to the time that a frame took: above 50 ms, pixels become larger where they may; above 90 ms, detail gets
+    /// coarser, and below 50 ms finer.
+    /// </summary>
     /// <param name="frameTime">Time from the first step of drawing until the window showed the frame.</param>
     public void RecordFrameTime(TimeSpan frameTime)
     {
@@ -64,17 +79,24 @@ public sealed class AdaptiveQuality
             return;
         }
 
-        var previousSize = _minProjectedSize;
-        if (frameTime > SlowFrameTime)
+        var previous = (_minProjectedSize, _pixelFactor);
+        if (_mayEnlarge && _pixelFactor < MaxPixelFactor && frameTime > FastFrameTime)
+        {
+            _pixelFactor++;
+        }
+        else if (frameTime > SlowFrameTime)
         {
             _minProjectedSize = Math.Min(CoarseningFactor * _minProjectedSize, _coarsestSize);
         }
         else if (frameTime < FastFrameTime)
         {
+            // Larger pixels go last.
+            var isLast = _mayEnlarge && _minProjectedSize.Equals(FinestProjectedSize) && frameTime < FastEnlargedTime;
+            _pixelFactor = isLast ? Math.Max(1, _pixelFactor - 1) : _pixelFactor;
             _minProjectedSize = Math.Max(_minProjectedSize / RefinementFactor, FinestProjectedSize);
         }
 
-        if (!previousSize.Equals(_minProjectedSize))
+        if (previous != (_minProjectedSize, _pixelFactor))
         {
             _framesSinceChange = 0;
         }

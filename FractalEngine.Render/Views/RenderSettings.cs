@@ -55,6 +55,17 @@ public sealed record RenderSettings
     } = 4;
 
     /// <summary>
+    /// Side of the squares of pixels that are drawn as one, for frames that must be fast; they are enlarged smoothly. Above 1 there is no
+    /// multisampling.
+    /// </summary>
+    /// <exception cref="ArgumentOutOfRangeException">The number is not positive.</exception>
+    public int PixelSize
+    {
+        get;
+        init => field = value > 0 ? value : throw new ArgumentOutOfRangeException(nameof(PixelSize), value, "expected a positive number");
+    } = 1;
+
+    /// <summary>
     /// Number of frames, each moved by a part of a pixel, whose mean is shown where nothing moves: edges smaller than a pixel then hold
     /// still when the camera moves. A <see cref="FrameRenderer"/> gathers them when asked to.
     /// </summary>

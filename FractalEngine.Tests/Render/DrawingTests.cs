@@ -14,6 +14,7 @@ using FractalEngine.Render.Gl.State;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 using FractalEngine.Tests.Support;
+using static System.FormattableString;
 
 namespace FractalEngine.Tests.Render;
 
@@ -240,6 +241,48 @@ public sealed class DrawingTests
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
             $"a frame of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
+    }
+
+    [SkippableTheory]
+    [InlineData(2, 200, 150)]
+    [InlineData(3, 201, 151)]
+    [InlineData(3, 1, 1)]
+    public void LargerPixels_AreThoseOfASmallerImage_EnlargedInLinearLight(int pixelSize, int width, int height)
+    {
+        var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(2), Transformation.Identity, new Colour(0.9, 0.6, 0.1)));
+        var view = new View(ObliqueCamera, Projection.Perspective);
+        var settings = PlainLight with { Samples = 0 };
+        var (smallWidth, smallHeight) = ((width + pixelSize - 1) / pixelSize, (height + pixelSize - 1) / pixelSize);
+        var small = RenderScenes.Draw(scene, view, smallWidth, smallHeight, settings);
+        var large = RenderScenes.Draw(scene, view, width, height, settings with { PixelSize = pixelSize });
+        Assert.Equal((width, height), (large.Width, large.Height));
+        for (var y = 0; y < height; y++)
+        {
+            for (var x = 0; x < width; x++)
+            {
+                var expected = Interpolate((x + 0.5) * smallWidth / width, (y + 0.5) * smallHeight / height);
+                var (red, green, blue, _) = large[x, y];
+                Assert.True(
+                    Math.Max(Math.Abs(red - expected.X), Math.Max(Math.Abs(green - expected.Y), Math.Abs(blue - expected.Z))) <= 3,
+                    Invariant($"({x}, {y}): {red} {green} {blue}, expected {expected}"));
+            }
+        }
+
+        Vector Interpolate(double x, double y)
+        {
+            var (left, top) = (Math.Floor(x - 0.5), Math.Floor(y - 0.5));
+            var (right, down) = (x - 0.5 - left, y - 0.5 - top);
+            var light = (((1 - right) * (1 - down)) * Light(left, top)) + ((right * (1 - down)) * Light(left + 1, top))
+                + (((1 - right) * down) * Light(left, top + 1)) + ((right * down) * Light(left + 1, top + 1));
+            var colour = new Colour(light.X, light.Y, light.Z).FromLinear();
+            return new(255 * colour.Red, 255 * colour.Green, 255 * colour.Blue);
+        }
+
+        Vector Light(double x, double y)
+        {
+            var (red, green, blue, _) = small[(int)Math.Clamp(x, 0, smallWidth - 1), (int)Math.Clamp(y, 0, smallHeight - 1)];
+            return new Colour(red / 255.0, green / 255.0, blue / 255.0).ToLinearVector();
+        }
     }
 
     /// <summary>Writes a fractal as <c>export</c> does, and parses the result.</summary>

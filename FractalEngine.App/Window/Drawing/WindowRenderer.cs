@@ -14,8 +14,9 @@ namespace FractalEngine.App.Window.Drawing;
 
 /// <summary>
 /// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
-/// are culled while one is drawn. When it stops, a full frame follows. The first frame of a scene is a preview: one sample a pixel, coarse
-/// detail and no shadows, since full frames of large scenes take seconds without a GPU.
+/// are culled while one is drawn. When it stops, a full frame follows. Where full frames are slow, those that follow each other at once,
+/// as while the mouse turns the camera, are coarser, too. The first frame of a scene is a preview: one sample a pixel, coarse detail and
+/// no shadows, since full frames of large scenes take seconds without a GPU.
 /// </summary>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
@@ -23,18 +24,36 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     private static readonly TimeSpan MaxGatherTime = TimeSpan.FromSeconds(0.25);
     private static readonly TimeSpan MaxLensTime = TimeSpan.FromSeconds(1.5);
 
+    // Where a full frame takes longer, one that follows another one at once is coarser.
+    private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.05);
+    // A window does not answer while it draws a full frame, so a slow one waits longer until it is likely that nothing follows.
+    private static readonly TimeSpan MinRestTime = TimeSpan.FromSeconds(0.15);
+    private static readonly TimeSpan MaxRestTime = TimeSpan.FromSeconds(0.6);
+
     private readonly AdaptiveQuality _adaptiveQuality = new();
     private long _drawnCount;
     private long _presentedAgainCount;
     private View? _nextView;
     private View? _shownView;
     private TimeSpan _gatherTime;
+    private TimeSpan _fullFrameTime;
+    private long _lastFrame;
+    private bool _isBetweenOthers;
 
     /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
     public View? LatestView { get; private set; }
 
-    /// <summary>True when the last frame was a preview or drawn for a moving camera, so that a full one must follow.</summary>
+    /// <summary>
+    /// True when the last frame was a preview, or drawn for a moving camera or between others, so that a full one must follow.
+    /// </summary>
     public bool IsReducedQuality { get; private set; }
+
+    /// <summary>Whether a frame that is drawn now follows another one so soon that a full one would be late.</summary>
+    public bool FollowsAtOnce => (!IsReducedQuality || _isBetweenOthers) && _fullFrameTime > SlowFrameTime
+        && Stopwatch.GetElapsedTime(_lastFrame) < RestTime;
+
+    /// <summary>How long the next full frame waits for another coarse one: the user may turn the camera, or move a slider.</summary>
+    public TimeSpan TimeToFullFrame => _isBetweenOthers ? RestTime - Stopwatch.GetElapsedTime(_lastFrame) : TimeSpan.Zero;
 
     /// <summary>Whether another frame would sharpen the one that is shown, in time.</summary>
     /// <param name="settings">The render settings for a camera at rest.</param>
@@ -91,7 +110,9 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     {
         _drawnCount++;
         _gatherTime = TimeSpan.Zero;
-        IsReducedQuality = document?.IsMoving == true;
+        var isMoving = document?.IsMoving == true;
+        _isBetweenOthers = !isMoving && FollowsAtOnce;
+        IsReducedQuality = isMoving || _isBetweenOthers;
         if (document is null)
         {
             frame.Draw(null, new(Camera.Default, Projection.Perspective), width, height, settings);
@@ -103,6 +124,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         if (_shownView is null && document is { IsReload: false, File.Kind: FileKind.Scene })
         {
             IsReducedQuality = true;
+            _isBetweenOthers = false;
             _shownView = view;
             _nextView = view;
             var preview = _adaptiveQuality.Adapt(settings) with { Shadows = false };
@@ -118,10 +140,10 @@ internal sealed class WindowRenderer(FrameRenderer frame)
             return settings;
         }
 
-        var adapted = _adaptiveQuality.Adapt(settings);
-        if (document.IsTrailEnabled)
+        var adapted = _adaptiveQuality.Adapt(settings, mayEnlarge: !document.IsPlaying);
+        if (document.IsTrailEnabled || _isBetweenOthers)
         {
-            // The paper's zoom moves the fractal with the camera, so an older view would not fit it.
+            // The paper's zoom moves the fractal with the camera, so an older view would not fit it, and what the mouse does must be seen.
             _shownView = view;
             _nextView = null;
         }
@@ -138,11 +160,18 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>
     public void RecordFrameTime(TimeSpan frameTime)
     {
+        _lastFrame = Stopwatch.GetTimestamp();
         if (IsReducedQuality)
         {
             _adaptiveQuality.RecordFrameTime(frameTime);
         }
+        else
+        {
+            _fullFrameTime = frameTime;
+        }
     }
+
+    private TimeSpan RestTime => TimeSpan.FromTicks(Math.Clamp(_fullFrameTime.Ticks / 3, MinRestTime.Ticks, MaxRestTime.Ticks));
 
     /// <summary>Captures the last frame as it is presented.</summary>
     /// <param name="layer">Traced image over the frame; null for none.</param>

@@ -46,7 +46,8 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
     /// <param name="settings">The present render settings.</param>
     /// <param name="width">Width of the frame in pixels.</param>
     /// <param name="height">Height of the frame in pixels.</param>
-    public void Update(Document? document, RenderSettings settings, int width, int height)
+    /// <param name="isStill">Whether the view stands still; else others are likely to follow at once.</param>
+    public void Update(Document? document, RenderSettings settings, int width, int height, bool isStill)
     {
         _obstacle = null;
         TraceRequest? request = null;
@@ -55,7 +56,7 @@ internal sealed class WindowTracing(WindowOptions options, Action published) : I
             _obstacle = (long)width * height > TracedImage.MaxPixelsOf(options.DenoisesTrace)
                 ? "too many pixels"
                 : FindObstacle(document, settings);
-            if (_obstacle is null && !document.IsMoving)
+            if (_obstacle is null && isStill)
             {
                 request = new(document.LitScene, document.UpdateView((double)width / height), width, height);
             }

@@ -127,7 +127,10 @@ internal sealed class Document : IDisposable
     public bool IsTrailEnabled { get; private set; }
 
     /// <summary>True while the film, the camera or a body moves.</summary>
-    public bool IsMoving => Film is { IsPlaying: true } || Physics.IsRunning || (!Physics.IsWalking && CameraControls.IsMoving);
+    public bool IsMoving => IsPlaying || (!Physics.IsWalking && CameraControls.IsMoving);
+
+    /// <summary>True while a film plays or bodies move.</summary>
+    public bool IsPlaying => Film is { IsPlaying: true } || Physics.IsRunning;
 
     /// <summary>The present camera in world space: the flying one, or the one at the player's eyes.</summary>
     public Camera Camera => Physics is { IsWalking: true, Character: { } controller }

@@ -30,6 +30,33 @@ public sealed class AdaptiveQualityTests
         Assert.Equal(8, quality.Adapt(new()).Culling!.MinProjectedSize);
     }
 
+    [Fact]
+    public void Pixels_OfSlowFrames_BecomeLargerWhereTheyMay_AndSmallerAgain()
+    {
+        var (quality, settings) = (new AdaptiveQuality(), new RenderSettings());
+        Assert.Equal([1, 1, 1], PixelSizes(mayEnlarge: false, 0.08, 3));
+        Assert.Equal([2, 3, 3], PixelSizes(mayEnlarge: true, 0.06, 3));
+        // Detail as it was: larger pixels come first.
+        Assert.Equal(3, quality.Adapt(settings, mayEnlarge: true).Culling!.MinProjectedSize);
+        Assert.Equal(0, quality.Adapt(settings, mayEnlarge: true).Samples);
+        // Bodies that move are shown with all pixels.
+        Assert.Equal(1, quality.Adapt(settings).PixelSize);
+        // Nine times 30 ms would be slow, four times 10 ms are not.
+        Assert.Equal([3, 3], PixelSizes(mayEnlarge: true, 0.03, 2));
+        Assert.Equal([2, 1, 1], PixelSizes(mayEnlarge: true, 0.01, 3));
+
+        int[] PixelSizes(bool mayEnlarge, double seconds, int count) => [.. Enumerable.Range(0, count).Select(_ =>
+        {
+            for (var i = 0; i < 4; i++)
+            {
+                quality.Adapt(settings, mayEnlarge);
+                quality.RecordFrameTime(TimeSpan.FromSeconds(seconds));
+            }
+
+            return quality.Adapt(settings, mayEnlarge).PixelSize;
+        })];
+    }
+
     [SkippableFact]
     [Trait("Category", "Soak")]
     public void Mountain_InSlowFrames_HasHardlyADotOfShadow()

@@ -82,6 +82,39 @@ public sealed class WindowRendererTests : IDisposable
     }
 
     [SkippableFact]
+    public void Draw_RightAfterASlowFrame_IsCoarse_UntilNothingFollows()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var windowRenderer = new WindowRenderer(frame);
+        windowRenderer.Draw(document, Settings, Width, Height);
+        windowRenderer.Draw(document, Settings, Width, Height);
+        var full = frame.Capture();
+        // Fast frames are full however soon they follow.
+        windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(0.01));
+        Assert.Same(Settings, windowRenderer.Draw(document, Settings, Width, Height));
+        Assert.False(windowRenderer.IsReducedQuality);
+        var coarse = Settings;
+        for (var attempt = 0; coarse == Settings && attempt < 20; attempt++)
+        {
+            // Again where the machine was busy for longer than a user pauses.
+            windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(0.2));
+            Assert.False(windowRenderer.IsReducedQuality);
+            coarse = windowRenderer.Draw(document, Settings, Width, Height);
+        }
+
+        Assert.Equal((0, true), (coarse.Samples, windowRenderer.IsReducedQuality));
+        Assert.True(windowRenderer.TimeToFullFrame < TimeSpan.FromSeconds(0.2));
+        windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(0.02));
+        Thread.Sleep(TimeSpan.FromSeconds(0.2));
+        Assert.True(windowRenderer.TimeToFullFrame < TimeSpan.Zero);
+        Assert.Same(Settings, windowRenderer.Draw(document, Settings, Width, Height));
+        Assert.False(windowRenderer.IsReducedQuality);
+        Assert.Equal(full.Pixels, frame.Capture().Pixels);
+    }
+
+    [SkippableFact]
     public void Draw_OfAReloadedFile_IsNoPreview()
     {
         using var window = Open();
