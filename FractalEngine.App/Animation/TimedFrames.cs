@@ -1,4 +1,3 @@
-using System.Collections.Immutable;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Parsing.Assets;
@@ -79,7 +78,7 @@ internal sealed class TimedFrames(
             frames.Move(bodies);
         }
 
-        if (scene.Scene.Film is { HasNumbers: true } film && !HaveSameValues(film.ValuesAt(time), film.ValuesAt(_shownTime)))
+        if (scene.Scene.Film is { HasNumbers: true } film && !film.HasSameValuesAt(time, _shownTime))
         {
             frames.Replace(animation.Images.LoadAt(time, _cache));
             _shownTime = time;
@@ -87,8 +86,4 @@ internal sealed class TimedFrames(
 
         return create(motion(frame), part, cancellation);
     }
-
-    private static bool HaveSameValues(
-        ImmutableDictionary<string, double> values, ImmutableDictionary<string, double> others) =>
-        values.All(pair => others[pair.Key].Equals(pair.Value));
 }

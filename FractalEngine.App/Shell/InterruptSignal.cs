@@ -100,7 +100,6 @@ internal sealed class InterruptSignal : IDisposable
     }
 
     [DllImport("libc", EntryPoint = "_exit")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern void ExitWithoutHandlers(int exitCode);
 
     /// <summary>True where the program was started to outlive its terminal, as <c>nohup</c> does. Known on Linux only.</summary>

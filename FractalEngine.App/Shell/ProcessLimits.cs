@@ -33,6 +33,5 @@ internal static class ProcessLimits
     }
 
     [DllImport("libc", EntryPoint = "getrlimit")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int ReadLimits(int resource, ulong[] limits);
 }

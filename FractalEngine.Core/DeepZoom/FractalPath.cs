@@ -44,9 +44,6 @@ internal sealed class FractalPath(LodHierarchy hierarchy)
     /// <summary>Finds the node that the path passes through at a depth; 0 is the whole fractal.</summary>
     public LodNode NodeAt(int depth) => hierarchy.NodeAt(_remainingLevels[depth]);
 
-    /// <summary>Number of levels that the sub-fractal at a depth has left.</summary>
-    public long RemainingLevelsAt(int depth) => _remainingLevels[depth];
-
     /// <summary>The place of the sub-fractal at a depth.</summary>
     public LevelState StateAt(int depth) => hierarchy.HasPicks
         ? new(_remainingLevels[depth], _ways[depth].Way, _ways[depth].Size)

@@ -55,9 +55,6 @@ internal sealed class DistinctList<T>(EntryWriter<T> write, int capacity)
     /// <summary>The distinct items. Not copied.</summary>
     public ReadOnlyMemory<T> Items => _items.AsMemory(0, Count);
 
-    /// <summary>The distinct item with an index.</summary>
-    public ref readonly T this[int index] => ref _items[index];
-
     /// <summary>Adds an item unless the same one was added before.</summary>
     /// <param name="item">The item.</param>
     /// <param name="maxCount">Maximum number of distinct items.</param>

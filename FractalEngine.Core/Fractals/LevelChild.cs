@@ -9,9 +9,4 @@ namespace FractalEngine.Core.Fractals;
 /// <param name="FixedLevel">Number of the level that the map leads to from any level; null where it goes down.</param>
 /// <param name="Way">What the map adds to the number of the way, by which choices are made.</param>
 /// <param name="Size">What the map adds to the number of the size: −log₂ of its longest stretch, in units of 2⁻³².</param>
-public readonly record struct LevelChild(int Set, int Map, long Down, long? FixedLevel, WrittenWay Way, long Size)
-{
-    /// <summary>The number of the level that the map leads to.</summary>
-    /// <param name="level">Number of the level that contains it.</param>
-    public long LevelBelow(long level) => FixedLevel ?? (level - Down);
-}
+public readonly record struct LevelChild(int Set, int Map, long Down, long? FixedLevel, WrittenWay Way, long Size);

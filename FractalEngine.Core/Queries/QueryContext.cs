@@ -135,8 +135,6 @@ public sealed class QueryContext
 
     internal void AppendToPath(int mapIndex) => _instancePath.Add(mapIndex);
 
-    internal void AppendToPath(ReadOnlySpan<int> mapIndices) => _instancePath.AddRange(mapIndices);
-
     internal void ReversePath() => _instancePath.Reverse();
 
     private static int[] EnsureLength(ref int[] buffer, int length)

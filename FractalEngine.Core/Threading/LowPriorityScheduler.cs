@@ -64,6 +64,5 @@ public sealed class LowPriorityScheduler : TaskScheduler, IDisposable
     }
 
     [DllImport("libc", EntryPoint = "setpriority")]
-    [DefaultDllImportSearchPaths(DllImportSearchPath.SafeDirectories)]
     private static extern int SetPriority(int which, int who, int niceness);
 }

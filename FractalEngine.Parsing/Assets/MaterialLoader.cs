@@ -78,9 +78,6 @@ internal sealed class MaterialLoader(
         if (!_materialFiles.TryGetValue(path, out var file) || file is null)
         {
             file = ReadOrFind(path, displayName);
-            _fileBytes += file.Source.ByteCount;
-            warnings.AddRange(file.Warnings);
-            _materialFiles[path] = file;
         }
 
         var names = file.Materials.Keys;
@@ -174,10 +171,7 @@ internal sealed class MaterialLoader(
 
         try
         {
-            var file = ReadOrFind(fullPath, displayName);
-            _fileBytes += file.Source.ByteCount;
-            warnings.AddRange(file.Warnings);
-            return _materialFiles[fullPath] = file;
+            return ReadOrFind(fullPath, displayName);
         }
         catch (SourceException fault)
         {
@@ -186,13 +180,18 @@ internal sealed class MaterialLoader(
         }
     }
 
-    private ParsedMtl ReadOrFind(string fullPath, string displayName) =>
-        AssetCache.ReadOrFind(cache, fullPath, record.Add(fullPath), () =>
+    private ParsedMtl ReadOrFind(string fullPath, string displayName)
+    {
+        var file = AssetCache.ReadOrFind(cache, fullPath, record.Add(fullPath), () =>
         {
-            var file = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaterialBytes.Value, acceptLatin1: true));
+            var read = MtlParser.Parse(SourceText.Read(fullPath, displayName, ParsingLimits.MaterialBytes.Value, acceptLatin1: true));
             cache?.ReadCount += 1;
-            return file;
+            return read;
         });
+        _fileBytes += file.Source.ByteCount;
+        warnings.AddRange(file.Warnings);
+        return _materialFiles[fullPath] = file;
+    }
 
     /// <summary>Returns a material with the full path of its texture, or without a texture that can't be used.</summary>
     private Material ResolveMaterial(ParsedMtl file, string fullPath, string name)

@@ -206,9 +206,8 @@ public sealed class SceneMaterials
     /// <summary>Multiplies two colours as light, as the renderer does. A factor of 1 leaves the other one's bits.</summary>
     private static Colour Multiply(Colour colour, Colour tint)
     {
-        var (red, green, blue) = colour.ToLinear();
-        var (tintRed, tintGreen, tintBlue) = tint.ToLinear();
-        var product = new Colour(red * tintRed, green * tintGreen, blue * tintBlue).FromLinear();
+        var light = tint.ToLinearVector().Stretch(colour.ToLinearVector());
+        var product = new Colour(light.X, light.Y, light.Z).FromLinear();
         return new(
             Choose(colour.Red, tint.Red, product.Red), Choose(colour.Green, tint.Green, product.Green),
             Choose(colour.Blue, tint.Blue, product.Blue));

@@ -46,12 +46,7 @@ internal sealed class DepthAtlas : GlObject
         GL.FramebufferTexture2D(FramebufferTarget.Framebuffer, FramebufferAttachment.DepthAttachment, _kind, _texture, 0);
         GL.DrawBuffer(DrawBufferMode.None);
         GL.ReadBuffer(ReadBufferMode.None);
-        var status = GL.CheckFramebufferStatus(FramebufferTarget.Framebuffer);
-        if (status != FramebufferErrorCode.FramebufferComplete || GL.GetError() != ErrorCode.NoError)
-        {
-            Dispose();
-            throw new GlException($"{this} of {width}×{height} texels is beyond the driver ({status})");
-        }
+        ThrowUnlessComplete($"{width}×{height} texels");
     }
 
     /// <summary>Width of the texture in texels.</summary>

@@ -29,7 +29,7 @@ internal sealed class Framebuffer : GlObject
         _depth = CreateRenderbuffer(RenderbufferStorage.DepthComponent32f, samples);
         Attach(FramebufferAttachment.ColorAttachment0, _colour);
         Attach(FramebufferAttachment.DepthAttachment, _depth);
-        ThrowUnlessComplete($" and {samples} samples");
+        ThrowUnlessComplete($"{width}×{height} pixels and {samples} samples");
     }
 
     /// <summary>Allocates a framebuffer of colours alone, which shaders can read.</summary>
@@ -44,7 +44,7 @@ internal sealed class Framebuffer : GlObject
     {
         _texture = new(resources, label, width, height, format);
         _texture.Attach();
-        ThrowUnlessComplete("");
+        ThrowUnlessComplete($"{width}×{height} pixels");
     }
 
     private Framebuffer(GlResources resources, string label, (int Width, int Height) size, PixelInternalFormat format)
@@ -144,16 +144,6 @@ internal sealed class Framebuffer : GlObject
         GL.DeleteRenderbuffer(_colour);
         GL.DeleteRenderbuffer(_depth);
         _texture?.Dispose();
-    }
-
-    private void ThrowUnlessComplete(string samples)
-    {
-        var status = GL.CheckFramebufferStatus(FramebufferTarget.Framebuffer);
-        if (status != FramebufferErrorCode.FramebufferComplete || GL.GetError() != ErrorCode.NoError)
-        {
-            Dispose();
-            throw new GlException($"{this} of {Width}×{Height} pixels{samples} is beyond the driver ({status})");
-        }
     }
 
     private static void Attach(FramebufferAttachment attachment, int renderbuffer) =>

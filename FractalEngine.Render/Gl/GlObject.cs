@@ -1,3 +1,6 @@
+using FractalEngine.Render.Gl.State;
+using OpenTK.Graphics.OpenGL4;
+
 namespace FractalEngine.Render.Gl;
 
 /// <summary>
@@ -62,6 +65,19 @@ internal abstract class GlObject : IDisposable
         {
             owner.Dispose();
             throw;
+        }
+    }
+
+    /// <summary>Disposes the object, and throws, unless the framebuffer that is bound can be drawn into.</summary>
+    /// <param name="size">The size of the object, for the message.</param>
+    /// <exception cref="GlException">Size or memory exceed the driver's limits.</exception>
+    protected void ThrowUnlessComplete(string size)
+    {
+        var status = GL.CheckFramebufferStatus(FramebufferTarget.Framebuffer);
+        if (status != FramebufferErrorCode.FramebufferComplete || GL.GetError() != ErrorCode.NoError)
+        {
+            Dispose();
+            throw new GlException($"{this} of {size} is beyond the driver ({status})");
         }
     }
 

@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 
@@ -69,11 +70,11 @@ internal readonly record struct DisplayTransform(double Exposure, Tone Tone)
     private static Vector EachOf(Vector v, Func<double, double> map) => new(map(v.X), map(v.Y), map(v.Z));
 
     /// <summary>Converts linear light of the scene to what an image stores, from 0 to 1 or beyond where there is no tone curve.</summary>
-    public Vector ToSrgb(Vector light) => EachOf(Apply(light), ToSrgb);
-
-    // The curve of IEC 61966-2-1.
-    private static double ToSrgb(double linear) =>
-        linear <= 0.0031308 ? 12.92 * linear : (1.055 * Math.Pow(linear, 1 / 2.4)) - 0.055;
+    public Colour ToSrgb(Vector light)
+    {
+        var (x, y, z) = Apply(light);
+        return new Colour(x, y, z).FromLinear();
+    }
 
     /// <summary>Finds the light of the scene that is shown as given light of the screen, from 0 to 1.</summary>
     public Vector Invert(Vector shown)

@@ -3,6 +3,7 @@ using System.Runtime.InteropServices;
 using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
@@ -86,7 +87,7 @@ internal static class ModelPreparation
             return CreateEmpty(name, isPlaceholder: true);
         }
 
-        var mesh = CreateBoxMesh(bounds);
+        var mesh = Shapes.Box(bounds);
         var batches = FaceBatches.SingleBatch(mesh);
         var (vertices, _, _, indices) = DrawableMeshBuilder.Build(mesh, bounds.Centre, 0, batches);
         var instances = ToInstanceRows([AffineMap.Identity], bounds.Centre, bounds.Centre);
@@ -95,15 +96,6 @@ internal static class ModelPreparation
 
     private static DrawableModel CreateEmpty(string name, bool isPlaceholder) =>
         new(name, Vector.Zero, BoundingBox.Empty, [], [], []) { IsPlaceholder = isPlaceholder };
-
-    private static Mesh CreateBoxMesh(BoundingBox box)
-    {
-        var (x1, y1, z1) = box.Minimum;
-        var (x2, y2, z2) = box.Maximum;
-        return new(
-            [x1, y1, z1, x2, y1, z1, x1, y2, z1, x2, y2, z1, x1, y1, z2, x2, y1, z2, x1, y2, z2, x2, y2, z2],
-            [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 4, 2, 4, 6, 2, 1, 3, 5, 3, 7, 5, 2, 6, 3, 3, 6, 7, 0, 1, 4, 1, 5, 4]);
-    }
 
     /// <summary>Builds the hierarchy that instances are selected from; null where the fractal has no bounds and must be expanded.</summary>
     public static LodHierarchy? TryBuildHierarchy(string name, Model model, ImmutableArray<string>.Builder notices)

@@ -83,9 +83,6 @@ internal static class Reflection
         return weight != Vector.Zero && height != 0 && density > 0;
     }
 
-    /// <summary>The brightness of a colour in linear light, by ITU-R BT.709.</summary>
-    public static double Luminance(Vector colour) => (0.2126 * colour.X) + (0.7152 * colour.Y) + (0.0722 * colour.Z);
-
     /// <summary>The same as <see cref="Evaluate"/>, of directions above the plane of the normal for shading alone.</summary>
     private static Vector EvaluateLobe(in TracedSurface surface, Vector toEye, Vector toLight)
     {
@@ -118,9 +115,9 @@ internal static class Reflection
             return 0;
         }
 
-        var mirrored = Luminance(gloss.Albedo(
+        var mirrored = Vector.Dot(DisplayTransform.Luminance, gloss.Albedo(
             surface.Colour, FacetAlbedo.At(CosineEye(in surface, toEye), gloss.Roughness), out var scattered));
-        var sum = mirrored + Luminance(scattered);
+        var sum = mirrored + Vector.Dot(DisplayTransform.Luminance, scattered);
         return sum > 0 ? mirrored / sum : 0;
     }
 

@@ -3,6 +3,7 @@ using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Render.Lights;
 
 namespace FractalEngine.Render.Tracing;
 
@@ -32,7 +33,7 @@ internal sealed class TracedAreaLights
     public static TracedAreaLights? CreateOrNull(LoadedScene scene, IReadOnlyDictionary<Model, TracedModel> surfaces, bool isUniform)
     {
         var sampler = new AreaLightSampler(
-            scene, (part, face) => Reflection.Luminance(surfaces[part].MaterialOf(face).Emission), isUniform);
+            scene, (part, face) => Vector.Dot(DisplayTransform.Luminance, surfaces[part].MaterialOf(face).Emission), isUniform);
         return sampler.IsEmpty ? null : new(sampler);
     }
 

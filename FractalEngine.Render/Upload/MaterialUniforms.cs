@@ -29,11 +29,9 @@ internal sealed class MaterialUniforms(ShaderProgram program, RedundancyFilter f
         }
 
         _lastKey = (material, tint);
-        var diffuse = ClampNegative(material?.Diffuse ?? Colour.White).ToLinear();
-        var linearTint = tint.ToLinear();
-        var tinted = new Colour(diffuse.Red * linearTint.Red, diffuse.Green * linearTint.Green, diffuse.Blue * linearTint.Blue);
+        var diffuse = ClampNegative(material?.Diffuse ?? Colour.White).ToLinearVector();
         var gloss = GlossOf(material);
-        WriteVector(0, tinted, material?.Opacity ?? 1);
+        LightBlock.WriteVector(tint.ToLinearVector().Stretch(diffuse), material?.Opacity ?? 1, _data);
         LightBlock.WriteVector(gloss?.Coat ?? default, gloss?.Roughness ?? 1, _data.AsSpan(4));
         WriteVector(8, ClampNegative(material?.Ambient ?? Colour.White), material is null ? 0 : 1);
         if (material?.Texture is { } texture)

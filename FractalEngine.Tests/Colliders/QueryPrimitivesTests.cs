@@ -184,7 +184,7 @@ public sealed class QueryPrimitivesTests
     public void SavePath_ThenRestorePath_GivesThePathBackOnce()
     {
         var context = new QueryContext();
-        context.AppendToPath([3, 1, 2]);
+        Array.ForEach([3, 1, 2], context.AppendToPath);
         context.SavePath();
         context.ClearPath();
         context.AppendToPath(9);

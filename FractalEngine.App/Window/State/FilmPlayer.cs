@@ -57,8 +57,7 @@ internal sealed class FilmPlayer
 
     /// <summary>Whether the scene was loaded with other numbers than the present time has.</summary>
     public bool NeedsLoad => _film.HasNumbers && !Nullable.Equals(_wantedTime, _loadedTime)
-        && (_wantedTime is not { } wanted || _loadedTime is not { } loaded
-            || _film.ValuesAt(loaded).Any(pair => !_film.ValuesAt(wanted)[pair.Key].Equals(pair.Value)));
+        && !(_wantedTime is { } wanted && _loadedTime is { } loaded && _film.HasSameValuesAt(loaded, wanted));
 
     /// <summary>The way of the camera with a mark at each key, world space; none unless it is shown.</summary>
     public IReadOnlyList<LineSegment> Lines => ShowsPath && !IsPlaying && _path is not null ? _lines ??= CreateLines(_path) : [];

@@ -8,9 +8,6 @@ namespace FractalEngine.Core.Approximation.Elements;
 /// </summary>
 internal sealed class ElementAlignment
 {
-    // A frame whose affine volume is below this is too thin to be extrapolated from.
-    private const double SmallVolume = 1e-6;
-
     private readonly ElementShape _shape;
     private readonly int[] _frame;
     private readonly Matrix _inverseFrame;

@@ -59,9 +59,6 @@ internal sealed class FaceSet
     /// <summary>Number of faces in the set.</summary>
     public int Count => _outlines.Count;
 
-    /// <summary>Number of triangles in all faces.</summary>
-    public int TriangleCount => _outlines.Sum(face => face.Triangles.Length / 3);
-
     /// <summary>The positions of the faces' corners, scene units.</summary>
     public Vector[] Points { get; }
 

@@ -39,9 +39,6 @@ internal sealed class FractalHierarchy(Mesh[] baseMeshes, LevelTable<HierarchyLe
     /// <summary>The sub-fractal with all levels, which is the whole fractal.</summary>
     public SubFractal Root { get; private set; } = levels.At(top).SubFractal!;
 
-    /// <summary>Square of half the diagonal of the whole fractal's box.</summary>
-    public double RadiusSquared => 0.25 * Root.Box.Size.LengthSquared();
-
     /// <summary>True when all maps are similarities, so that they multiply distances by their scale.</summary>
     public bool HasOnlySimilarities { get; init; }
 

@@ -36,19 +36,20 @@ internal static class BodyRadius
     /// <summary>Measures the distance of points from the origin.</summary>
     private readonly struct DistanceFromOrigin : IPointMeasure
     {
-        public double UpperBound(SubFractal subFractal, in AffineMap map) => MaxCornerDistance(subFractal.Box, map);
+        public double UpperBound(SubFractal subFractal, in AffineMap map) => MaxCornerDistance(subFractal.Box, in map, Vector.Zero);
 
         public double MaxOverVertices(Mesh mesh, in AffineMap map) => MaxVertexDistance(mesh, map);
 
         public (Vector Direction, double Offset)? Key(in AffineMap map) => null;
     }
 
-    private static double MaxCornerDistance(BoundingBox box, AffineMap map)
+    /// <summary>Largest distance of a mapped box's corners from a point.</summary>
+    public static double MaxCornerDistance(BoundingBox box, in AffineMap map, Vector centre)
     {
         var maxDistance = 0.0;
         for (var corner = 0; corner < 8; corner++)
         {
-            maxDistance = Math.Max(maxDistance, (map * box.Corner(corner)).Length());
+            maxDistance = Math.Max(maxDistance, ((map * box.Corner(corner)) - centre).Length());
         }
 
         return maxDistance;

@@ -43,7 +43,7 @@ public sealed class MeshShape
         Inertia = mass.Inertia;
         var isFinite = Volume > 0 && double.IsFinite(Volume) && Centre.IsFinite() && Inertia.IsFinite();
         ArgumentCheck.Require(isFinite, "the mass is beyond the range of a double");
-        Radius = MaxDistance(model.Bounds, in map, Centre);
+        Radius = BodyRadius.MaxCornerDistance(model.Bounds, in map, Centre);
     }
 
     /// <summary>The mesh or fractal that is the body's surface.</summary>
@@ -72,16 +72,5 @@ public sealed class MeshShape
         var size = Vector.Max(box.Size, MinThickness * box.Diagonal * Vector.One);
         var solid = Shapes.Box(new(box.Centre - (0.5 * size), box.Centre + (0.5 * size)));
         return MassProperties.Of(Enumerable.Range(0, solid.FaceCount).Select(solid.Face), box.Centre);
-    }
-
-    private static double MaxDistance(BoundingBox box, in AffineMap map, Vector centre)
-    {
-        var radius = 0.0;
-        for (var corner = 0; corner < 8; corner++)
-        {
-            radius = Math.Max(radius, ((map * box.Corner(corner)) - centre).Length());
-        }
-
-        return radius;
     }
 }

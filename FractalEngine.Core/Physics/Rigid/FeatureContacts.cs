@@ -152,8 +152,8 @@ internal sealed class FeatureContacts
     {
         var outwards1 = _outwards.First * triangle1.Normal;
         var outwards2 = _outwards.Second * triangle2.Normal;
-        var depth1 = triangle2.ReachAlong(outwards1).Minimum - Vector.Dot(outwards1, triangle1.Corners.A);
-        var depth2 = triangle1.ReachAlong(outwards2).Minimum - Vector.Dot(outwards2, triangle2.Corners.A);
+        var depth1 = triangle2.LowestAlong(outwards1) - Vector.Dot(outwards1, triangle1.Corners.A);
+        var depth2 = triangle1.LowestAlong(outwards2) - Vector.Dot(outwards2, triangle2.Corners.A);
         var isFirst = outwards2 == Vector.Zero || (outwards1 != Vector.Zero && depth1 > depth2);
         var contact = new ContactPoint(point, isFirst ? -outwards1 : outwards2, Math.Max(isFirst ? depth1 : depth2, -_maxDepth));
         if (contact.Gap >= -_distance)

@@ -49,12 +49,7 @@ internal readonly struct SurfaceTriangle
     /// <summary>The triangle where a placement has it.</summary>
     public SurfaceTriangle Place(in SurfaceMotion placement) => new(in this, in placement);
 
-    /// <summary>How far the triangle reaches along an axis, from the least to the greatest product.</summary>
-    public (double Minimum, double Maximum) ReachAlong(Vector axis)
-    {
-        var a = Vector.Dot(axis, Corners.A);
-        var b = Vector.Dot(axis, Corners.B);
-        var c = Vector.Dot(axis, Corners.C);
-        return (Math.Min(a, Math.Min(b, c)) - Rounding, Math.Max(a, Math.Max(b, c)) + Rounding);
-    }
+    /// <summary>How far the triangle reaches against an axis: the least product.</summary>
+    public double LowestAlong(Vector axis) => Math.Min(
+        Vector.Dot(axis, Corners.A), Math.Min(Vector.Dot(axis, Corners.B), Vector.Dot(axis, Corners.C))) - Rounding;
 }

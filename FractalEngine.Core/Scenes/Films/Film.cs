@@ -42,6 +42,13 @@ public sealed record Film(double Duration)
         return values.ToImmutable();
     }
 
+    /// <summary>Whether all numbers have the same values at two times, seconds.</summary>
+    public bool HasSameValuesAt(double time1, double time2)
+    {
+        var others = ValuesAt(time2);
+        return ValuesAt(time1).All(pair => others[pair.Key].Equals(pair.Value));
+    }
+
     /// <inheritdoc/>
     public bool Equals(Film? other) => other is not null && Duration.Equals(other.Duration) && Keys.SequenceEqual(other.Keys);
 

@@ -37,9 +37,8 @@ internal sealed class PlyVertices
             if (_corners.HasColours)
             {
                 // As light, as they are drawn.
-                var (red, green, blue) = _corners.ColourAt(i).ToLinear();
-                var (tintRed, tintGreen, tintBlue) = colour.ToLinear();
-                colour = new Colour(red * tintRed, green * tintGreen, blue * tintBlue).FromLinear();
+                var light = colour.ToLinearVector().Stretch(_corners.ColourAt(i).ToLinearVector());
+                colour = new Colour(light.X, light.Y, light.Z).FromLinear();
             }
 
             (colours[3 * i], colours[(3 * i) + 1], colours[(3 * i) + 2]) = ExportedPart.ToBytes(colour);

@@ -5,7 +5,6 @@ namespace FractalEngine.Parsing.Text.Numbers;
 /// <summary>
 /// Reads decimal numbers independently of the culture, correctly rounded: always the same bits as <see cref="double.Parse(string)"/>.
 /// </summary>
-/// <remarks>The framework reads numbers of more than 19 digits, and exponents of more than six.</remarks>
 public static class NumberReader
 {
     /// <summary>Reads a number at the start of a text: sign, digits, point, digits and exponent.</summary>
@@ -16,18 +15,11 @@ public static class NumberReader
     public static bool TryRead(ReadOnlySpan<char> text, out double value, out int length)
     {
         var position = text.Length > 0 && text[0] is '-' or '+' ? 1 : 0;
-        var digitsStart = position;
-        var mantissa = 0UL;
-        ReadDigits(text, ref position, ref mantissa);
-        var digitCount = position - digitsStart;
-        var exponent = 0;
+        var digitCount = SkipDigits(text, ref position);
         if (position < text.Length && text[position] == '.')
         {
             position++;
-            var fractionStart = position;
-            ReadDigits(text, ref position, ref mantissa);
-            exponent = fractionStart - position;
-            digitCount -= exponent;
+            digitCount += SkipDigits(text, ref position);
         }
 
         value = 0;
@@ -37,15 +29,8 @@ public static class NumberReader
             return false;
         }
 
-        var isExponentUsable = TryReadExponent(text, ref position, ref exponent);
+        SkipExponent(text, ref position);
         length = position;
-        if (digitCount <= DecimalConversion.MaxDigits && isExponentUsable)
-        {
-            value = DecimalConversion.ToDouble(mantissa, exponent);
-            value = text[0] == '-' ? -value : value;
-            return true;
-        }
-
         value = double.Parse(text[..length], NumberStyles.Float, CultureInfo.InvariantCulture);
         return true;
     }
@@ -60,41 +45,24 @@ public static class NumberReader
             || (word.StartsWith("nan(", StringComparison.OrdinalIgnoreCase) && word.EndsWith(")"));
     }
 
-    private static void ReadDigits(ReadOnlySpan<char> text, ref int position, ref ulong mantissa)
+    private static int SkipDigits(ReadOnlySpan<char> text, ref int position)
     {
-        for (; position < text.Length && (uint)(text[position] - '0') <= 9; position++)
+        var start = position;
+        while (position < text.Length && char.IsAsciiDigit(text[position]))
         {
-            // Overflow is harmless: mantissas of more than 19 digits are not used.
-            mantissa = unchecked((mantissa * 10) + (ulong)(text[position] - '0'));
+            position++;
         }
+
+        return position - start;
     }
 
-    /// <summary>Adds a written exponent to the given one; false if it has too many digits for the fast path.</summary>
-    private static bool TryReadExponent(ReadOnlySpan<char> text, ref int position, ref int exponent)
+    private static void SkipExponent(ReadOnlySpan<char> text, ref int position)
     {
-        if (position >= text.Length || text[position] is not ('e' or 'E'))
+        if (position < text.Length && text[position] is 'e' or 'E')
         {
-            return true;
-        }
-
-        var digitsStart = position + (position + 1 < text.Length && text[position + 1] is '-' or '+' ? 2 : 1);
-        var digitsEnd = digitsStart;
-        var magnitude = 0UL;
-        ReadDigits(text, ref digitsEnd, ref magnitude);
-        if (digitsEnd == digitsStart)
-        {
+            var end = position + (position + 1 < text.Length && text[position + 1] is '-' or '+' ? 2 : 1);
             // "2em" is the number 2 followed by something else.
-            return true;
+            position = SkipDigits(text, ref end) > 0 ? end : position;
         }
-
-        var isNegative = text[position + 1] == '-';
-        position = digitsEnd;
-        if (digitsEnd - digitsStart > 6)
-        {
-            return false;
-        }
-
-        exponent += isNegative ? -(int)magnitude : (int)magnitude;
-        return true;
     }
 }

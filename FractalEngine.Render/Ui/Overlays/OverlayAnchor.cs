@@ -6,14 +6,8 @@ public enum OverlayAnchor
     /// <summary>The upper left corner of the frame.</summary>
     TopLeft,
 
-    /// <summary>The upper right corner of the frame.</summary>
-    TopRight,
-
     /// <summary>The lower left corner of the frame.</summary>
     BottomLeft,
-
-    /// <summary>The lower right corner of the frame.</summary>
-    BottomRight,
 
     /// <summary>The middle of the lower edge.</summary>
     Bottom,

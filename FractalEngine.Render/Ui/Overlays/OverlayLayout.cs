@@ -140,16 +140,11 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
     private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
         var gap = Margin / 2;
-        var x = anchor switch
-        {
-            OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft => Margin,
-            OverlayAnchor.TopRight or OverlayAnchor.BottomRight => _frameSize.Width - width - Margin,
-            _ => (_frameSize.Width - width) / 2,
-        };
-        var growsDown = anchor is OverlayAnchor.TopLeft or OverlayAnchor.TopRight or OverlayAnchor.Centre;
+        var x = anchor is OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft ? Margin : (_frameSize.Width - width) / 2;
+        var growsDown = anchor is OverlayAnchor.TopLeft or OverlayAnchor.Centre;
         var y = anchor switch
         {
-            OverlayAnchor.TopLeft or OverlayAnchor.TopRight => Margin,
+            OverlayAnchor.TopLeft => Margin,
             OverlayAnchor.Centre => (_frameSize.Height - height) / 2,
             _ => _frameSize.Height - height - Margin,
         };

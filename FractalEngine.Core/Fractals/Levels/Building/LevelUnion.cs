@@ -96,42 +96,25 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             return BoundingVolume.FromVertices(box, [], 0, margin) with { Clusters = outliers };
         }
 
-        var (vertices, count, maxOutsideDistance) = vertexCount <= MaxVerticesAtOnce
-            ? CollectVertices(edges, (int)vertexCount)
-            : CollectExtremeVertices(edges, BoundingVolume.RoundingMargin(box));
+        var (vertices, count, maxOutsideDistance) = CollectVertices(edges, vertexCount, box);
         return BoundingVolume.FromVertices(box, vertices, count, margin + maxOutsideDistance) with { Clusters = outliers };
     }
 
-    /// <summary>Collects the vertices of hulls into the shared array.</summary>
-    private (Vector[] Vertices, int Count, double MaxOutsideDistance) CollectVertices(IEnumerable<CollapsedEdge> edges, int vertexCount)
+    /// <summary>
+    /// Collects the vertices of hulls into the shared array; where they are too many, those of hulls around parts of them, and how far
+    /// vertices lie outside of these.
+    /// </summary>
+    private (Vector[] Vertices, int Count, double MaxOutsideDistance) CollectVertices(
+        IEnumerable<CollapsedEdge> edges, long vertexCount, BoundingBox box)
     {
-        if (_vertices.Length < vertexCount)
+        var capacity = (int)Math.Min(vertexCount, MaxVerticesAtOnce);
+        if (_vertices.Length < capacity)
         {
-            _vertices = new Vector[BitOperations.RoundUpToPowerOf2((uint)vertexCount)];
+            _vertices = new Vector[BitOperations.RoundUpToPowerOf2((uint)capacity)];
         }
 
-        var count = 0;
-        foreach (var edge in edges)
-        {
-            foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
-            {
-                _vertices[count++] = edge.Map * vertex;
-            }
-        }
-
-        return (_vertices, count, 0);
-    }
-
-    /// <summary>Collects the vertices of hulls, each around a part of the vertices, and how far vertices lie outside of them.</summary>
-    private (Vector[] Vertices, int Count, double MaxOutsideDistance) CollectExtremeVertices(
-        IEnumerable<CollapsedEdge> edges, double rounding)
-    {
+        var isReduced = vertexCount > MaxVerticesAtOnce;
         var extremes = new List<Vector>();
-        if (_vertices.Length < MaxVerticesAtOnce)
-        {
-            _vertices = new Vector[MaxVerticesAtOnce];
-        }
-
         var count = 0;
         var maxOutsideDistance = 0.0;
         foreach (var edge in edges)
@@ -139,11 +122,16 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             foreach (var vertex in built.VolumeAt(edge.RemainingLevels).Hull!.Vertices)
             {
                 _vertices[count++] = edge.Map * vertex;
-                if (count == MaxVerticesAtOnce)
+                if (isReduced && count == MaxVerticesAtOnce)
                 {
                     Reduce();
                 }
             }
+        }
+
+        if (!isReduced)
+        {
+            return (_vertices, count, 0);
         }
 
         if (count > 0)
@@ -151,7 +139,7 @@ internal sealed class LevelUnion(BuiltLevels built, OutlierClusters clusters)
             Reduce();
         }
 
-        return (extremes.ToArray(), extremes.Count, maxOutsideDistance + rounding);
+        return (extremes.ToArray(), extremes.Count, maxOutsideDistance + BoundingVolume.RoundingMargin(box));
 
         void Reduce()
         {
