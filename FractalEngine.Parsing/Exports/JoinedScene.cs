@@ -10,7 +10,8 @@ namespace FractalEngine.Parsing.Exports;
 
 /// <summary>Makes a scene of one mesh out of all that a scene shows, for formats that want one closed surface.</summary>
 /// <remarks>
-/// Positions, faces and colours are kept, those of vertices excepted. Memory: some 100 bytes a face, and 300 more to weld.
+/// Positions, faces and colours are kept, those of vertices excepted, and so are camera and lights. Memory: some 100 bytes a face, and
+/// 300 more to weld.
 /// </remarks>
 public sealed class JoinedScene
 {
@@ -44,9 +45,10 @@ public sealed class JoinedScene
         }
 
         var joined = new JoinedScene(scene);
+        var (added, count) = (0L, exported.Parts.Sum(static part => part.Count));
         foreach (var part in exported.Parts)
         {
-            joined.Add(part);
+            joined.Add(part, () => settings.Progress?.Report((double)++added / count));
         }
 
         var mesh = new Mesh([.. joined._positions], [.. joined._indices]).WithGroups([.. joined._groups], []);
@@ -60,12 +62,19 @@ public sealed class JoinedScene
             Materials = joined._materials.ByName.ToImmutableDictionary(
                 static pair => pair.Key, static pair => WithoutTextures(pair.Value)),
         };
-        return LoadedScene.Of(new()
+        return LoadedScene.Of(scene.Scene with
         {
-            Handedness = scene.Scene.Handedness,
             Objects = [new(model) { Name = scene.Objects.Length == 1 ? exported.Parts[0].ObjectName : "scene" }],
         });
     }
+
+    /// <summary>Tells what joining loses of a scene, a sentence each.</summary>
+    public static ImmutableArray<string> LossesOf(LoadedScene scene) =>
+    [
+        .. ExportedScene.LossesOf(scene),
+        .. scene.Models.SelectMany(static model => model.Parts).Any(static part => !part.Mesh.Colours.IsEmpty)
+            ? (string[])["colours of vertices are not written"] : [],
+    ];
 
     /// <summary>Tells what welding has left, such as "closed, 24 edges where surfaces touch".</summary>
     public static string Describe(LoadedScene welded)
@@ -87,7 +96,7 @@ public sealed class JoinedScene
         NormalTexture = null,
     };
 
-    private void Add(ExportedPart part)
+    private void Add(ExportedPart part, Action report)
     {
         var (mesh, sides) = (part.Mesh, MeshWelding.FindSides(part.Mesh));
         foreach (var instance in part.Instances)
@@ -113,6 +122,8 @@ public sealed class JoinedScene
             {
                 AddGroup(firstFace + group.FirstFace, group.FaceCount, part.MaterialOf(_materials, group.Material, instance.Tint));
             }
+
+            report();
         }
     }
 
