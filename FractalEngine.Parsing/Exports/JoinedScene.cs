@@ -45,16 +45,16 @@ public sealed class JoinedScene
         }
 
         var joined = new JoinedScene(scene);
-        var (added, count) = (0L, exported.Parts.Sum(static part => part.Count));
         foreach (var part in exported.Parts)
         {
-            joined.Add(part, () => settings.Progress?.Report((double)++added / count));
+            joined.Add(part);
         }
 
         var mesh = new Mesh([.. joined._positions], [.. joined._indices]).WithGroups([.. joined._groups], []);
         if (isWelded && mesh.FaceCount > 0 && mesh.UsedBounds.Diagonal is > 0 and var size)
         {
-            mesh = MeshWelding.Weld(mesh, [.. joined._sides], Math.Clamp(RelativeTolerance * size, MinTolerance, MaxTolerance));
+            mesh = MeshWelding.Weld(
+                mesh, [.. joined._sides], Math.Clamp(RelativeTolerance * size, MinTolerance, MaxTolerance), settings.Progress);
         }
 
         var model = new MeshModel(mesh)
@@ -96,7 +96,7 @@ public sealed class JoinedScene
         NormalTexture = null,
     };
 
-    private void Add(ExportedPart part, Action report)
+    private void Add(ExportedPart part)
     {
         var (mesh, sides) = (part.Mesh, MeshWelding.FindSides(part.Mesh));
         foreach (var instance in part.Instances)
@@ -122,8 +122,6 @@ public sealed class JoinedScene
             {
                 AddGroup(firstFace + group.FirstFace, group.FaceCount, part.MaterialOf(_materials, group.Material, instance.Tint));
             }
-
-            report();
         }
     }
 

@@ -37,7 +37,7 @@ public class CameraFramingTests
     {
         var box = new BoundingBox(-Vector.One, Vector.One);
         var expected = CameraFraming.Default(box, 1.5).Position;
-        Near.Equal(expected, CameraFraming.Default(new(scale * box.Minimum, scale * box.Maximum), 1.5).Position / scale, 1e-12);
+        Near.Equal(expected, CameraFraming.Default(new BoundingBox(scale * box.Minimum, scale * box.Maximum), 1.5).Position / scale, 1e-12);
     }
 
     [Theory]
