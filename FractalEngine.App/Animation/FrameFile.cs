@@ -10,7 +10,7 @@ internal static class FrameFile
 {
     /// <summary>Returns false for an image that was cut, or can't be read.</summary>
     /// <remarks>A PNG or HDR image is decoded. Of an EXR image the length counts.</remarks>
-    public static bool IsWhole(string path)
+    public static bool IsComplete(string path)
     {
         try
         {

@@ -154,7 +154,7 @@ internal static class AnimateCommand
                     continue;
                 }
 
-                if (animation.IsResumed && output.TrySkip(FrameFile.IsWhole))
+                if (animation.IsResumed && output.TrySkip(FrameFile.IsComplete))
                 {
                     frames.Skip(frame);
                     known++;

@@ -32,7 +32,7 @@ public abstract class AnimationOutput : IDisposable
     /// <returns>Their paths, from number 1 to the last one; some may be missing. Empty where there are none.</returns>
     public static IReadOnlyList<string> FindNumbered(string path) => NumberedImages.Find(path);
 
-    /// <summary>Creates an output.</summary>
+    /// <summary>Names an output after its file.</summary>
     /// <param name="name">Path of the file; empty where there are several.</param>
     private protected AnimationOutput(string name = "") => Name = name;
 
@@ -56,8 +56,8 @@ public abstract class AnimationOutput : IDisposable
     public virtual void AddFile(Action<Stream> write) => throw new NotSupportedException($"{Name} has no file for each frame");
 
     /// <summary>Passes over the next frame, if it is a file of its own that is there already.</summary>
-    /// <param name="isWhole">Whether the file at a path counts; null where each does.</param>
-    public virtual bool TrySkip(Predicate<string>? isWhole = null) => false;
+    /// <param name="isComplete">Whether the file at a path counts; null where each does.</param>
+    public virtual bool TrySkip(Predicate<string>? isComplete = null) => false;
 
     /// <summary>Completes the output with the frames that were added.</summary>
     /// <param name="isPartial">

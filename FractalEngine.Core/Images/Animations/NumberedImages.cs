@@ -32,9 +32,9 @@ internal sealed class NumberedImages(string path, int frameCount, int first = 1)
     }
 
     /// <inheritdoc/>
-    public override bool TrySkip(Predicate<string>? isWhole = null)
+    public override bool TrySkip(Predicate<string>? isComplete = null)
     {
-        var isThere = File.Exists(PathOf(_count + 1)) && isWhole?.Invoke(PathOf(_count + 1)) != false;
+        var isThere = File.Exists(PathOf(_count + 1)) && isComplete?.Invoke(PathOf(_count + 1)) != false;
         _count += isThere ? 1 : 0;
         return isThere;
     }

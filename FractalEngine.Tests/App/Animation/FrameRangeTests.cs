@@ -58,19 +58,19 @@ public sealed class FrameRangeTests : DrawingCommandTests
     [InlineData(".png")]
     [InlineData(".hdr")]
     [InlineData(".exr")]
-    public void IsWhole_OfAFrame_IsFalseWhereItWasCut(string ending)
+    public void IsComplete_OfAFrame_IsFalseWhereItWasCut(string ending)
     {
         Assert.Equal(0, Animate("f" + ending, "--only", "1..1").ExitCode);
         var path = Folder["f-0001" + ending];
-        Assert.True(FrameFile.IsWhole(path));
+        Assert.True(FrameFile.IsComplete(path));
         var bytes = File.ReadAllBytes(path);
         foreach (int length in (int[])[0, 1, 7, bytes.Length / 4, bytes.Length / 2, bytes.Length - 1])
         {
             File.WriteAllBytes(path, bytes[..length]);
-            Assert.False(FrameFile.IsWhole(path), $"{length} bytes");
+            Assert.False(FrameFile.IsComplete(path), $"{length} bytes");
         }
 
-        Assert.False(FrameFile.IsWhole(Folder["none" + ending]));
+        Assert.False(FrameFile.IsComplete(Folder["none" + ending]));
     }
 
     [Fact]
