@@ -38,7 +38,8 @@ internal static class FrameFile
         while (TextLength() > 0)
         {
             TextLength();
-            stream.Seek(reader.ReadInt32(), SeekOrigin.Current);
+            // Forwards only, whatever a damaged file says.
+            stream.Seek(reader.ReadUInt32(), SeekOrigin.Current);
         }
 
         // The first block stands behind the offsets of all blocks.
