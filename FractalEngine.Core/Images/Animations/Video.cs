@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Files;
 
 namespace FractalEngine.Core.Images.Animations;
 
