@@ -17,6 +17,7 @@ internal static class CommandLine
     public static int Run(string[] args)
     {
         var root = CreateRootCommand();
+        args = WithFilesBehindDashes(args);
         if (UsageErrors.ReportUnknownCommand(root, args) is { } exitCode)
         {
             return exitCode;
@@ -40,6 +41,11 @@ internal static class CommandLine
         ExportCommand.Create(), ApproximateCommand.Create(), CheckCommand.Create(), SaveCommand.Create(), GenerateCommand.Create(),
         SkyCommand.Create(), QueryCommand.Create(), SimulateCommand.Create(), LimitsCommand.Create(), Limits,
     };
+
+    // What stands behind "--" is no option, whatever it begins with.
+    private static string[] WithFilesBehindDashes(string[] args) => Array.IndexOf(args, "--") is >= 0 and var dashes
+        ? [.. args[..dashes], "--", .. args[(dashes + 1)..].Select(static name => name.Length > 1 && name[0] == '-' ? $"./{name}" : name)]
+        : args;
 
     private static string[] WithDefaultCommand(RootCommand root, string[] args) => args switch
     {

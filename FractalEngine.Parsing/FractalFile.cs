@@ -16,7 +16,8 @@ namespace FractalEngine.Parsing;
 
 /// <summary>
 /// Reads and writes fractals as files (<c>.fdo</c>). What is written reads back as an equal fractal; with
-/// <see cref="LoadOptions.AllowOutsideFiles"/>, where its base mesh has a file outside the folder of the new one.
+/// <see cref="LoadOptions.AllowOutsideFiles"/>, where its base mesh has a file outside the folder of the new one. Where a recursive's body
+/// names other fractal files, it reads back as the same shape, made of other parts.
 /// </summary>
 /// <example><code>
 /// FractalFile.Write("sponge.fdo", Fractal.Of(Shapes.Cube()).Repeat(maps, 5)); // and sponge-base.obj

@@ -201,6 +201,17 @@ public sealed class InvalidArgumentTests
         Assert.Empty(DrawableScene.Prepare(scene, new()).Notices);
     }
 
+    [Theory]
+    [InlineData(1e-17, null)]
+    [InlineData(1e37, null)]
+    [InlineData(1e-19, "the scene is 1.73E-19 units large, and drawn frames show 1E-18 to 8E+37: trace it, or scale it")]
+    [InlineData(1e38, "the scene is 1.73E+38 units large, and drawn frames show 1E-18 to 8E+37: trace it, or scale it")]
+    public void Prepare_OfAScene_SaysWhereFloatsCannotDrawIt(double scale, string? notice)
+    {
+        var scene = LoadedScene.Of(new() { Objects = [new(Shapes.Cube()) { Placement = Samples.MoveAndScale(0, 0, 0, scale) }] });
+        Assert.Equal(notice is null ? [] : [notice], DrawableScene.Prepare(scene, new()).Notices.ToArray());
+    }
+
     private static void AssertLimit(string limit, Func<object> make) => Assert.Equal(
         $"the fractal has more than the limit of {limit}", Assert.Throws<FractalLimitException>(make).Message);
 }

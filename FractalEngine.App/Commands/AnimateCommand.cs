@@ -44,7 +44,7 @@ internal static class AnimateCommand
         var path = SharedOptions.TextOption(
             "--path", "CAMERAS.txt", "Fly through the cameras of a list, one a line as --camera takes it; '-' is the standard input.");
         var only = RangeOption();
-        var resume = SharedOptions.Flag("--resume", "Leave numbered images as they are that are there already, and make the others.");
+        var resume = SharedOptions.Flag("--resume", "Leave numbered images that are there already, and whole, and make the others.");
         var join = SharedOptions.Flag("--join", "Put the numbered images of FILE, such as frames.png, together; nothing is drawn.");
         var command = new DocumentedCommand(
             "animate", "Draw FILE into the frames of an animation: its film, --turntable, --zoom, --path and --simulate say what moves.",
@@ -154,7 +154,7 @@ internal static class AnimateCommand
                     continue;
                 }
 
-                if (animation.IsResumed && output.TrySkip())
+                if (animation.IsResumed && output.TrySkip(FrameFile.IsComplete))
                 {
                     frames.Skip(frame);
                     known++;
@@ -178,7 +178,7 @@ internal static class AnimateCommand
             interruption.Acknowledge();
             // What is done stays, in whole frames.
             progress.End();
-            Complete(output, report, made, known);
+            Complete(output, report, made, known, isPartial: true);
             throw;
         }
 
@@ -187,11 +187,11 @@ internal static class AnimateCommand
         return ExitCode.Done;
     }
 
-    private static void Complete(AnimationOutput output, WrittenReport report, int made, int known)
+    private static void Complete(AnimationOutput output, WrittenReport report, int made, int known, bool isPartial = false)
     {
         if (made + known > 0)
         {
-            output.Complete();
+            output.Complete(isPartial);
             var frames = made == 1 ? "1 frame" : $"{made} frames";
             report.Written(output.Name, known == 0 ? frames : $"{frames}, {known} {(known == 1 ? "was" : "were")} there");
         }
@@ -214,9 +214,13 @@ internal static class AnimateCommand
         AnimationJob.CheckFormat(output, framesPerSecond, isTransparent: false);
         var files = AnimationOutput.FindNumbered(frames);
         var example = $"{Path.ChangeExtension(frames, null)}-0001{Path.GetExtension(frames)}";
-        UsageException.ThrowIf(files.Count == 0, $"there are no numbered images of {frames}, such as {example}");
         UsageException.ThrowIf(
             AnimationOutput.HasNoTimes(output), $"--output '{output}' must end in .apng, .mp4, .webm or .gif, to put images together");
+        if (files.Count == 0)
+        {
+            throw new FractalEngineException($"there are no numbered images of {frames}, such as {example}");
+        }
+
         if (files.FirstOrDefault(static file => !File.Exists(file)) is { } missing)
         {
             throw new FractalEngineException($"{missing} is missing, and {files[^1]} is there: make it first, with --resume");
@@ -230,7 +234,7 @@ internal static class AnimateCommand
         foreach (var file in files)
         {
             interruption.ThrowIfRequested();
-            var image = ImageFile.Load(file);
+            var image = Load(file);
             first ??= image;
             joined.Add((image.Width, image.Height) == (first.Width, first.Height) ? image : throw new FractalEngineException(
                 FormattableString.Invariant(
@@ -239,6 +243,19 @@ internal static class AnimateCommand
 
         Complete(joined, report, files.Count, 0);
         return ExitCode.Done;
+    }
+
+    private static PixelImage Load(string frame)
+    {
+        try
+        {
+            return ImageFile.Load(frame);
+        }
+        catch (IOException exception)
+        {
+            // Of an input, not of the output.
+            throw new FractalEngineException(ErrorKind.Input, exception.Message, exception);
+        }
     }
 
     /// <summary>Creates the option for the numbers of frames that are made.</summary>

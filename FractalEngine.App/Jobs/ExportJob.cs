@@ -41,8 +41,10 @@ internal sealed class ExportJob(string output, bool hasMaterials, bool isWelded)
     public ExportSummary Run(LoadedScene scene, ExportSettings settings, Action<string, Action> measure)
     {
         var remark = "";
+        var losses = ImmutableArray<string>.Empty;
         if (isWelded)
         {
+            losses = JoinedScene.LossesOf(scene);
             measure("weld", () => scene = JoinedScene.Of(scene, settings, isWelded: true));
             settings = settings with { MaxInstances = null };
             remark = $", {JoinedScene.Describe(scene)}";
@@ -62,10 +64,16 @@ internal sealed class ExportJob(string output, bool hasMaterials, bool isWelded)
         });
         return new(summary.Contents + remark + (materials is null ? "" : $", {materials.Describe()}"))
         {
-            Losses = [.. summary.Losses.Select(loss => $"{output}: warning: {loss}"), .. materials?.FindOutsideTextures() ?? []],
+            Losses =
+            [
+                .. losses.Concat(summary.Losses).Select(loss => $"{output}: warning: {loss}"), .. materials?.FindOutsideTextures() ?? [],
+            ],
         };
 
         void Write(Stream stream) => summary = _format?.Write(scene, settings, stream)
-            ?? ExportSummary.OfFaces(ObjSceneWriter.Write(scene, stream, settings, materials?.Materials, materials?.Name ?? ""));
+            ?? ExportSummary.OfFaces(ObjSceneWriter.Write(scene, stream, settings, materials?.Materials, materials?.Name ?? "")) with
+            {
+                Losses = ExportedScene.LossesOf(scene, keepsTextures: true),
+            };
     }
 }

@@ -13,6 +13,8 @@ internal sealed class InterruptSignal : IDisposable
     // Work between two polls takes milliseconds. Where it takes longer something is wrong, and the user is not made to wait.
     private static readonly TimeSpan AcknowledgeTimeout = TimeSpan.FromSeconds(3);
 
+    private static readonly TimeSpan MessageTimeout = TimeSpan.FromSeconds(0.5);
+
     private static PosixSignalRegistration[] _processRegistrations = [];
     private static int _liveCount;
 
@@ -90,6 +92,8 @@ internal sealed class InterruptSignal : IDisposable
     private static void EndProcess()
     {
         AtomicFile.DeleteUnfinished();
+        // What holds the stream may wait for ever.
+        Task.Run(static () => Console.Error.WriteLine("error: interrupted")).Wait(MessageTimeout);
         if (OperatingSystem.IsLinux() || OperatingSystem.IsMacOS())
         {
             // Without the handlers that libraries have registered for the exit: those of OpenGL free what the window's thread still uses.

@@ -24,7 +24,8 @@ internal struct FlatRayPolicy(LocalRay ray, RaySearch search) : ITraversalPolicy
     public int[]? Path;
 
     /// <inheritdoc/>
-    public readonly long MaxBoundTests => FractalRayCaster.MaxBoundTests;
+    /// <remarks>Less by the faces that were tested.</remarks>
+    public readonly long MaxBoundTests => FractalRayCaster.MaxTests - Search.FaceTests;
 
     /// <inheritdoc/>
     /// <remarks>Flattened parts are so few that their own bounds suffice.</remarks>

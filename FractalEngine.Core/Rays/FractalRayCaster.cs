@@ -17,7 +17,7 @@ namespace FractalEngine.Core.Rays;
 /// </summary>
 /// <remarks>
 /// Sub-fractals smaller than <see cref="LevelPrecision.RelativePrecision"/> of the whole are replaced by the base mesh, and so is
-/// what a ray still has to visit after a million bounds. Why no hit is lost is explained in docs/rays.md.
+/// what a ray still has to visit after a million bounds and faces. Why no hit is lost is explained in docs/rays.md.
 /// </remarks>
 /// <param name="hierarchy">The levels of the fractal.</param>
 /// <param name="top">The place of the sub-fractal that rays are cast at, which the hierarchy must have kept.</param>
@@ -28,8 +28,8 @@ internal sealed class FractalRayCaster(
     FractalHierarchy hierarchy, LevelState top, TriangleBvh[] bvhs, RayLevels rayLevels, RayPlanes[] basePlanes)
     : ShapeRayCaster
 {
-    // About a fifth of a second.
-    public const long MaxBoundTests = 1_000_000;
+    // Bounds and faces: about a fifth of a second.
+    public const long MaxTests = 1_000_000;
 
     // Beyond it, the rounding of a ray in the frame of a sub-fractal may exceed the margin of its bounds.
     private const double MaxCondition = 1e5;
@@ -192,7 +192,7 @@ internal sealed class FractalRayCaster(
                 isLeafHit = TryIntersectProxy(depth, in inner, bounds, ref search, context, ref pathLength);
             }
             else if (bounds.IsBase || radius <= minRadius || inner.PathLength >= InstanceResolver.MaxDepth
-                || search.BoundTests >= MaxBoundTests)
+                || search.BoundTests + search.FaceTests >= MaxTests)
             {
                 isLeafHit = TryIntersectLeaf(in ray, depth, in inner, bounds, ref search, context, ref pathLength);
             }

@@ -128,7 +128,7 @@ public static class CameraFraming
         var depth = Math.Min(
             DepthThatShows(local.Select(static point => (point.X, point.Z)), slopeX),
             DepthThatShows(local.Select(static point => (point.Y, point.Z)), slopeY));
-        var minDistance = Math.Max(1e-3 * box.Diagonal, 1e-9 * (1 + box.Centre.MaxAbsComponent()));
+        var minDistance = Math.Max(1e-3 * box.Diagonal, 1e-9 * ((box.Diagonal > 0 ? 0 : 1) + box.Centre.MaxAbsComponent()));
         depth = Math.Min(depth, local.Min(static point => point.Z) - minDistance);
         var position = new Vector(
             FindCentre(local.Select(static point => (point.X, point.Z)), depth),

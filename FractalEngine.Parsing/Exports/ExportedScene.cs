@@ -54,12 +54,20 @@ public sealed class ExportedScene
         return new(scene, settings, frame, hasPaths);
     }
 
-    /// <summary>Tells that a format without textures loses those of a scene, in a sentence.</summary>
-    public static ImmutableArray<string> LossesOf(LoadedScene scene)
+    /// <summary>Tells what a format loses of the surfaces of a scene, a sentence each.</summary>
+    /// <param name="scene">The scene.</param>
+    /// <param name="keepsTextures">Whether the format has textures.</param>
+    public static ImmutableArray<string> LossesOf(LoadedScene scene, bool keepsTextures = false)
     {
         ArgumentNullException.ThrowIfNull(scene);
-        return scene.Models.SelectMany(static model => model.Parts).SelectMany(static part => part.Materials.Values)
-            .Any(static material => material.IsTextured) ? ["textures are not written"] : [];
+        var losesTextures = !keepsTextures && scene.Models.SelectMany(static model => model.Parts)
+            .SelectMany(static part => part.Materials.Values).Any(static material => material.IsTextured);
+        var losesSurfaces = scene.Objects.Any(static placed => placed.ShownGradient is { HasSurface: true });
+        return
+        [
+            .. losesTextures ? (string[])["textures are not written"] : [],
+            .. losesSurfaces ? (string[])["roughness, metal and glow of gradients are not written"] : [],
+        ];
     }
 
     private ExportedPart List(PlacedModel placed, int objectIndex, int meshIndex, AffineMap frame)

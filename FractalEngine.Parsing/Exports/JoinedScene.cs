@@ -10,7 +10,8 @@ namespace FractalEngine.Parsing.Exports;
 
 /// <summary>Makes a scene of one mesh out of all that a scene shows, for formats that want one closed surface.</summary>
 /// <remarks>
-/// Positions, faces and colours are kept, those of vertices excepted. Memory: some 100 bytes a face, and 300 more to weld.
+/// Positions, faces and colours are kept, those of vertices excepted, and so are camera and lights. Memory: some 100 bytes a face, and
+/// 300 more to weld.
 /// </remarks>
 public sealed class JoinedScene
 {
@@ -52,7 +53,8 @@ public sealed class JoinedScene
         var mesh = new Mesh([.. joined._positions], [.. joined._indices]).WithGroups([.. joined._groups], []);
         if (isWelded && mesh.FaceCount > 0 && mesh.UsedBounds.Diagonal is > 0 and var size)
         {
-            mesh = MeshWelding.Weld(mesh, [.. joined._sides], Math.Clamp(RelativeTolerance * size, MinTolerance, MaxTolerance));
+            mesh = MeshWelding.Weld(
+                mesh, [.. joined._sides], Math.Clamp(RelativeTolerance * size, MinTolerance, MaxTolerance), settings.Progress);
         }
 
         var model = new MeshModel(mesh)
@@ -60,12 +62,19 @@ public sealed class JoinedScene
             Materials = joined._materials.ByName.ToImmutableDictionary(
                 static pair => pair.Key, static pair => WithoutTextures(pair.Value)),
         };
-        return LoadedScene.Of(new()
+        return LoadedScene.Of(scene.Scene with
         {
-            Handedness = scene.Scene.Handedness,
             Objects = [new(model) { Name = scene.Objects.Length == 1 ? exported.Parts[0].ObjectName : "scene" }],
         });
     }
+
+    /// <summary>Tells what joining loses of a scene, a sentence each.</summary>
+    public static ImmutableArray<string> LossesOf(LoadedScene scene) =>
+    [
+        .. ExportedScene.LossesOf(scene),
+        .. scene.Models.SelectMany(static model => model.Parts).Any(static part => !part.Mesh.Colours.IsEmpty)
+            ? (string[])["colours of vertices are not written"] : [],
+    ];
 
     /// <summary>Tells what welding has left, such as "closed, 24 edges where surfaces touch".</summary>
     public static string Describe(LoadedScene welded)

@@ -1,6 +1,7 @@
 using System.Buffers.Binary;
 using FractalEngine.Core;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
 
 namespace FractalEngine.Parsing.Exports;
 
@@ -10,6 +11,12 @@ namespace FractalEngine.Parsing.Exports;
 /// <param name="total">Number of all bytes.</param>
 internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progress, long total)
 {
+    // Floats have fewer digits below, and a thousandth of a part of that size is still told.
+    private const double MinSize = 1e-34;
+
+    // A tenth of what is so much smaller than its coordinates is still told.
+    private const double RelativePrecision = 1e-6;
+
     private readonly byte[] _buffer = new byte[1 << 18];
     private int _length;
     private long _written;
@@ -37,6 +44,19 @@ internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progr
     /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
     public static Vector RequireSingle(Vector vector) => vector.MaxAbsComponent() <= float.MaxValue ? vector
         : throw new FractalEngineException($"a coordinate is beyond the range of a float: {vector}");
+
+    /// <summary>Tells that floats can't tell the parts of a scene, which is too small, or small and far from the origin.</summary>
+    public static string[] LossesOf(LoadedScene scene, AffineMap frame)
+    {
+        var scale = frame.Linear.V1.Length();
+        var bounds = scene.Bounds;
+        var size = scale * bounds.Diagonal;
+        var farthest = scale * Math.Max(bounds.Minimum.MaxAbsComponent(), bounds.Maximum.MaxAbsComponent());
+        return !bounds.IsEmpty && size > 0 && size < Math.Max(MinSize, RelativePrecision * farthest)
+            ? [FormattableString.Invariant(
+                $"floats can't tell the parts of what is {size:G3} units large and up to {farthest:G3} from the origin")]
+            : [];
+    }
 
     /// <summary>Writes a vector as three floats.</summary>
     /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>

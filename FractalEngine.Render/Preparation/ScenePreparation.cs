@@ -13,6 +13,10 @@ namespace FractalEngine.Render.Preparation;
 /// </summary>
 public sealed class ScenePreparation
 {
+    // Floats on the GPU, scene units: the square of a pixel's offset underflows below, and the far plane overflows beyond.
+    private const double MinSize = 1e-18;
+    private const double MaxSize = 8e37;
+
     private readonly LoadedScene _scene;
     private readonly RenderSettings _settings;
     private readonly ImmutableArray<string>.Builder _notices = ImmutableArray.CreateBuilder<string>();
@@ -40,6 +44,13 @@ public sealed class ScenePreparation
         {
             _notices.Add(FormattableString.Invariant(
                 $"of {lightCount} lights besides ambient ones, only the first {LightBlock.MaxLights} shine"));
+        }
+
+        if (!scene.Bounds.IsEmpty && scene.Bounds.Diagonal is (> 0 and < MinSize) or > MaxSize)
+        {
+            _notices.Add(FormattableString.Invariant(
+                $"the scene is {scene.Bounds.Diagonal:G3} units large, and drawn frames show {MinSize} to {MaxSize}: ")
+                + "trace it, or scale it");
         }
 
         Scene = DrawableScene.CreateWithPlaceholders(scene, _scene, _notices.ToImmutable());

@@ -19,6 +19,19 @@ public sealed class CommandResultTests : IDisposable
 
     public void Dispose() => _folder.Dispose();
 
+    /// <summary>Behind two dashes there are files alone, whatever they are called.</summary>
+    [Theory]
+    [InlineData("info", "--json", "--", "-cube.obj")]
+    [InlineData("check", "--", "-cube.obj", "--help.obj")]
+    public void Files_BehindTwoDashes_MayBeginWithADash(params string[] arguments)
+    {
+        _folder.Write("-cube.obj", SampleFiles.Cube);
+        _folder.Write("--help.obj", SampleFiles.Cube);
+        var (exitCode, _, error) = Run(arguments);
+        Assert.Equal((0, ""), (exitCode, error));
+        Assert.Equal(2, Run("info", "-cube.obj").ExitCode);
+    }
+
     /// <summary>A set without maps leaves nothing, however often it is repeated.</summary>
     [Fact]
     public void Commands_OnAnEmptyFractalWithoutEnd_FindNothing()

@@ -126,6 +126,40 @@ public sealed class FractalFileTests : IDisposable
         Assert.Equal(fractal, FractalFile.Read(_folder["a.fdo"]));
     }
 
+    /// <summary>Its parts are others: sets that another file makes of a mesh become calls of the body.</summary>
+    [Theory]
+    [InlineData("z<x>. [a.] x + q\n<$>. z 3")]
+    [InlineData("z<x>. [a.] x + [a., b.] q + ball\n<$>. z 3")]
+    [InlineData("y. plate\nz<x>, w<y>. 2: [a.] x + y | 1: [b.] y + q, [b.] x + (1: q | 1: ball)\n<$>. z 4")]
+    public void Write_OfAnotherFileWithinARecursive_ReadsBackAsTheSameShape(string outer)
+    {
+        const string maps = "a. ((1, 0, 0), #, (0.5))\nb. ((0, 1, 0), (0, 0, 30), (0.5))\nx. box\n";
+        _folder.Write("inner.fdo", $"{maps}<$>. 1: [a., b.] cone | 1: [b.] cone\n");
+        var fractal = FractalFile.Read(_folder.Write("outer.fdo", $"{maps}q. \"inner.fdo\"\n{outer}\n"));
+        FractalFile.Write(_folder["a.fdo"], fractal);
+        var (expected, found) = (fractal.Flatten(100_000), FractalFile.Read(_folder["a.fdo"]).Flatten(100_000));
+        Assert.Equal(expected.FaceCount, found.FaceCount);
+        Assert.Equal(expected.UsedBounds, found.UsedBounds);
+        Near.Equal(1, found.SurfaceArea() / expected.SurfaceArea(), 1e-12);
+    }
+
+    /// <summary>A file would count the placement as one more level.</summary>
+    [Theory]
+    [InlineData("z<x>. 1: [a.] x + box | 1: x\n<$>. z 5")]
+    [InlineData("z<x>. [a.] x + box\n<$>. z until 0.1")]
+    public void Write_OfWhatIsMoved_IsRefusedWhereItWouldBecomeAnother(string text)
+    {
+        var fractal = FractalFile.Read(_folder.Write("f.fdo", $"a. ((1, 0, 0), #, (0.5))\nx. ball\n{text}\n"));
+        FractalFile.Write(_folder["a.fdo"], fractal);
+        File.Delete(_folder["a.fdo"]);
+        var error = Assert.Throws<FractalEngineException>(
+            () => FractalFile.Write(_folder["a.fdo"], fractal.WithPlacement(Samples.MoveAndScale(1, 0, 0, 2))));
+        Assert.Equal(
+            "the fractal can't be written as a file: it is moved, and a file would count that as a level, with other choices or ends: "
+            + "place it in a scene", error.Message);
+        Assert.False(File.Exists(_folder["a.fdo"]));
+    }
+
     [Fact]
     public void Write_OfAMeshOutsideTheFolder_NamesItAllTheSame()
     {

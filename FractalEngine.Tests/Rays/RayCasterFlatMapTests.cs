@@ -1,7 +1,10 @@
+using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.Rays;
 using FractalEngine.Tests.Queries.Regions;
+using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Rays;
@@ -34,6 +37,27 @@ public class RayCasterFlatMapTests
             Assert.True(isFound, $"a ray from {origin} to {target} misses");
             Assert.InRange(hit.Distance, 0, (target - origin).Length() + 1e-11);
         });
+    }
+
+    /// <summary>Each flat part is searched by itself, face by face, and there are thousands beside each ray.</summary>
+    [Fact]
+    public void TryFindNearest_OfAnInfiniteFractalOfFlatMaps_TestsAMillionBoundsAndFacesAtMost()
+    {
+        var corners = new Vector[] { new(-1, 0, -1), new(1, 0, -1), new(1, 0, 1), new(-1, 0, 1), new(0, 0, 0), new(0, 0.01, 0) };
+        var set = corners.Select(static at => new Transformation(at, new(0, 20, 30), new(0.5, 0.003, 0.5)));
+        var caster = RayCaster.For(new Fractal(new([new Repetition([new TransformationSet([.. set])], null)]), RenderScenes.Cube(0.5)));
+        var context = new QueryContext();
+        var random = new Random(1);
+        var most = 0L;
+        for (var i = 0; i < 20; i++)
+        {
+            _ = caster.TryFindNearest(new(random.Vector(3), random.Vector()), context, out _);
+            most = Math.Max(most, context.Statistics.BoundTests + context.Statistics.FaceTests);
+            context.Statistics.Reset();
+        }
+
+        // The limit, with those of the last part and of what is left on the way back.
+        Assert.InRange(most, 1_000_000, 1_010_000);
     }
 
     private static bool HasHeight(ExpandedTriangle triangle)

@@ -12,6 +12,7 @@ using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Simplification;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
@@ -135,6 +136,12 @@ public sealed class CancellationTests : IDisposable
                 {
                     var plane = MirrorSearch.Find(Shapes.Cube(), token);
                     return $"{plane.Normal} {plane.Offset:R}";
+                };
+            case "MeshWelding.Weld":
+                return static (_, told) =>
+                {
+                    var mesh = Row(3).Flatten(1000);
+                    return HashOf(MeshWelding.Weld(mesh, MeshWelding.FindSides(mesh), 1e-9, new Teller<double>(told)));
                 };
             case "MeshApproximator.Find":
                 return static (token, told) =>

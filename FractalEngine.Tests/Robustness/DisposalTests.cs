@@ -234,7 +234,7 @@ public sealed class DisposalTests : IDisposable
             Assert.Equal(type, output.GetType().Name);
             output.Add(Pixel);
             Action[] ofImages = type == "NumberedImages" ? [() => output.AddFile(static _ => { })] : [];
-            return (output, [() => output.Add(Pixel), output.Complete, .. ofImages]);
+            return (output, [() => output.Add(Pixel), () => output.Complete(), .. ofImages]);
         }
         finally
         {

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
+using FractalEngine.Parsing;
 using FractalEngine.Tests.Render;
 using FractalEngine.Tests.Support;
 
@@ -37,6 +38,20 @@ public class SurfaceSummaryTests
         // The tetrahedron with edges of 2, 1 and 3 has a volume of 1.
         Near.Equal(1, summary.Volume!.Value / (Math.Pow(placement.Scale.X, 3) * volume), 1e-11);
     });
+
+    /// <summary>Equal maps of a set are one, and so is what an identity repeats. Equal chains are several.</summary>
+    [Theory]
+    [InlineData(1, "<$>. [t.1, t.1] box")]
+    [InlineData(1, "<$>. [t.1] box + [t.1] box")]
+    [InlineData(3, "z<box>. [#, t.1] box\n<$>. z 2")]
+    [InlineData(4, "z<box>. [t.1, t.2] box\n<$>. z 2")]
+    public void Of_InstancesThatCoincide_CountsEqualMapsOnceAndEqualChainsEachTime(int count, string text)
+    {
+        using var folder = new TemporaryFolder();
+        var fractal = FractalFile.Read(folder.Write("a.fdo", $"v 1 0 0\nv 2 0 0\nt.a. (a, #, #)\n{text}\n"));
+        var summary = SurfaceSummary.Of(RenderScenes.Scene(new(), (new FractalModel(fractal), Transformation.Identity, null)));
+        Assert.Equal((6.0 * count, (double)count), (summary.Area, summary.Volume));
+    }
 
     [Fact]
     public void Of_MapsThatStretch_HasTheAreaOfItsExpansion()

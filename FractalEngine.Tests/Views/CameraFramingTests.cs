@@ -28,6 +28,18 @@ public class CameraFramingTests
     public void LookRotation_StraightUpOrDown_LooksThere(double y) =>
         Near.Equal(new(0, y, 0), CameraFraming.LookRotation(new(0, y, 0)).LocalAxes().V3, 1e-15);
 
+    /// <summary>Below 1e-9 a box was seen from afar, as a dot.</summary>
+    [Theory]
+    [InlineData(1e-9)]
+    [InlineData(1e-15)]
+    [InlineData(1e-100)]
+    public void Frame_OfASmallBox_FillsTheFrameAsALargeOneDoes(double scale)
+    {
+        var box = new BoundingBox(-Vector.One, Vector.One);
+        var expected = CameraFraming.Default(box, 1.5).Position;
+        Near.Equal(expected, CameraFraming.Default(new BoundingBox(scale * box.Minimum, scale * box.Maximum), 1.5).Position / scale, 1e-12);
+    }
+
     [Theory]
     [InlineData(0.5)]
     [InlineData(1)]

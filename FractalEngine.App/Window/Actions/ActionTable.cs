@@ -44,11 +44,11 @@ internal static class ActionTable
         },
         new("screenshot", "File", "Screenshot", "save a screenshot into `out/`")
         {
-            Keys = [new(Key.F12)], Run = static a => a.SaveScreenshot(), IsAvailable = HasDocument,
+            Keys = [new(Key.F12)], Run = static a => a.SaveScreenshot(),
         },
         new("screenshot-panels", "File", "Screenshot of the window", "save a screenshot with menus and panels into `out/`")
         {
-            Keys = [KeyChord.Control(Key.F12)], Run = static a => a.SaveWindowScreenshot(), IsAvailable = HasDocument,
+            Keys = [KeyChord.Control(Key.F12)], Run = static a => a.SaveWindowScreenshot(),
         },
         new("close", "File", "Close", "end measuring, else select nothing, else close the window; asks if something was not saved")
         {

@@ -21,7 +21,9 @@ internal readonly record struct KeyChord(Key Key, KeyModifiers Modifiers = KeyMo
 
     public static KeyChord Of(KeyPressed pressed) => new(
         KeypadTwin(pressed.Key),
-        pressed.Modifiers.HasFlag(KeyModifiers.Control) ? pressed.Modifiers & ~KeyModifiers.Alt : KeyModifiers.None);
+        // Many keyboards have + above =, with Shift.
+        !pressed.Modifiers.HasFlag(KeyModifiers.Control) ? KeyModifiers.None
+            : pressed.Modifiers & ~(pressed.Key == Key.Plus ? KeyModifiers.Alt | KeyModifiers.Shift : KeyModifiers.Alt));
 
     /// <summary>Makes the chord of a key that is held together with Ctrl.</summary>
     public static KeyChord Control(Key key) => new(key, KeyModifiers.Control);

@@ -163,7 +163,7 @@ internal sealed class WindowActions(
         string message;
         try
         {
-            message = Screenshots.Save(capture(), Document!.File.Path);
+            message = Document is null ? "no screenshot yet: nothing is shown" : Screenshots.Save(capture(), Document.File.Path);
         }
         catch (Exception exception) when (exception is FractalEngineException or InvalidOperationException or OutOfMemoryException)
         {

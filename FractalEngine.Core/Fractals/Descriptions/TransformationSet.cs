@@ -48,7 +48,7 @@ public sealed class TransformationSet : FractalStep
     public bool HasTransformations => Transformations.Length == Maps.Length;
 
     /// <summary>True where the set moves a fractal as a whole: neither choices nor sizes count its map.</summary>
-    internal bool IsPlacement { get; init; }
+    public bool IsPlacement { get; internal init; }
 
     /// <summary>True for the identity alone, in either composition.</summary>
     internal bool IsIdentity => Colours.IsEmpty && (

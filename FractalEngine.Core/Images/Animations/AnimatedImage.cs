@@ -1,16 +1,11 @@
-using FractalEngine.Core.Files;
-
 namespace FractalEngine.Core.Images.Animations;
 
 /// <summary>Frames in one animated PNG, which repeats for ever.</summary>
 /// <param name="path">Path of the file.</param>
 /// <param name="framesPerSecond">Frames a second.</param>
-internal sealed class AnimatedImage(string path, double framesPerSecond) : AnimationOutput
+internal sealed class AnimatedImage(string path, double framesPerSecond) : AnimationOutput(path)
 {
     private readonly ApngAnimation _animation = new(framesPerSecond);
-
-    /// <inheritdoc/>
-    public override string Name => path;
 
     /// <inheritdoc/>
     public override void Add(PixelImage frame)
@@ -20,12 +15,12 @@ internal sealed class AnimatedImage(string path, double framesPerSecond) : Anima
     }
 
     /// <inheritdoc/>
-    public override void Complete()
+    public override void Complete(bool isPartial = false)
     {
         ThrowIfDisposed();
         if (_animation.FrameCount > 0)
         {
-            AtomicFile.Write(path, _animation.Write);
+            Save(_animation.Write, isPartial);
         }
     }
 }

@@ -1,3 +1,5 @@
+using FractalEngine.Core.Files;
+
 namespace FractalEngine.Core.Images.Animations;
 
 /// <summary>Where the frames of an animation go: numbered images, an animated PNG, or a video, by the ending of a name.</summary>
@@ -30,8 +32,12 @@ public abstract class AnimationOutput : IDisposable
     /// <returns>Their paths, from number 1 to the last one; some may be missing. Empty where there are none.</returns>
     public static IReadOnlyList<string> FindNumbered(string path) => NumberedImages.Find(path);
 
+    /// <summary>Names an output after its file.</summary>
+    /// <param name="name">Path of the file; empty where there are several.</param>
+    private protected AnimationOutput(string name = "") => Name = name;
+
     /// <summary>Path of the file, or a text for the files, in the report.</summary>
-    public abstract string Name { get; }
+    public virtual string Name { get; private protected set; }
 
     /// <summary>Paths of all files that are written or replaced.</summary>
     public virtual IEnumerable<string> Files => [Name];
@@ -50,17 +56,34 @@ public abstract class AnimationOutput : IDisposable
     public virtual void AddFile(Action<Stream> write) => throw new NotSupportedException($"{Name} has no file for each frame");
 
     /// <summary>Passes over the next frame, if it is a file of its own that is there already.</summary>
-    public virtual bool TrySkip() => false;
+    /// <param name="isComplete">Whether the file at a path counts; null where each does.</param>
+    public virtual bool TrySkip(Predicate<string>? isComplete = null) => false;
 
-    /// <summary>Completes the output, with all frames or with those before an interruption.</summary>
+    /// <summary>Completes the output with the frames that were added.</summary>
+    /// <param name="isPartial">
+    /// Whether others are missing. One file is then called <c>x.partial.apng</c>, or <c>x.partial-2.apng</c> and so on, and replaces none.
+    /// </param>
     /// <exception cref="ObjectDisposedException">The output has ended.</exception>
-    public abstract void Complete();
+    public abstract void Complete(bool isPartial = false);
 
     /// <summary>Ends the output. What is not complete then is deleted. Harmless when repeated.</summary>
     public virtual void Dispose()
     {
         IsDisposed = true;
         GC.SuppressFinalize(this);
+    }
+
+    /// <summary>Writes the output as one file, and names it after that.</summary>
+    private protected void Save(Action<Stream> write, bool isPartial)
+    {
+        if (!isPartial)
+        {
+            AtomicFile.Write(Name, write);
+            return;
+        }
+
+        var saved = AtomicFile.WriteWithoutReplacing(Path.ChangeExtension(Name, $".partial{Path.GetExtension(Name)}"), write, out _);
+        Name = Path.Combine(Path.GetDirectoryName(Name) ?? "", Path.GetFileName(saved));
     }
 
     private protected void ThrowIfDisposed() => ObjectDisposedException.ThrowIf(IsDisposed, this);

@@ -32,9 +32,9 @@ internal sealed class NumberedImages(string path, int frameCount, int first = 1)
     }
 
     /// <inheritdoc/>
-    public override bool TrySkip()
+    public override bool TrySkip(Predicate<string>? isComplete = null)
     {
-        var isThere = File.Exists(PathOf(_count + 1));
+        var isThere = File.Exists(PathOf(_count + 1)) && isComplete?.Invoke(PathOf(_count + 1)) != false;
         _count += isThere ? 1 : 0;
         return isThere;
     }
@@ -56,7 +56,7 @@ internal sealed class NumberedImages(string path, int frameCount, int first = 1)
     }
 
     /// <inheritdoc/>
-    public override void Complete() => ThrowIfDisposed();
+    public override void Complete(bool isPartial = false) => ThrowIfDisposed();
 
     private string PathOf(int number) => PathOf(path, number, _digits);
 

@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Files;
 
 namespace FractalEngine.Core.Images.Animations;
 
@@ -14,7 +13,6 @@ internal sealed class Video : AnimationOutput
     private static readonly string[] FormatArguments =
         ["-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"];
 
-    private readonly string _path;
     private readonly string _unfinishedPath;
     private readonly Process _encoder;
     private readonly Task<string> _messages;
@@ -24,9 +22,8 @@ internal sealed class Video : AnimationOutput
     /// <param name="path">Path of the video, whose ending chooses the format.</param>
     /// <param name="framesPerSecond">Frames a second.</param>
     /// <exception cref="IOException">ffmpeg is not installed.</exception>
-    public Video(string path, double framesPerSecond)
+    public Video(string path, double framesPerSecond) : base(path)
     {
-        _path = path;
         Directory.CreateDirectory(Path.GetDirectoryName(Path.GetFullPath(path))!);
         // A name of its own, since the encoder replaces what it finds. It chooses the format by the ending.
         _unfinishedPath = Path.Combine(Path.GetDirectoryName(path) ?? "", $"{Guid.NewGuid():N}.unfinished{Path.GetExtension(path)}");
@@ -57,9 +54,6 @@ internal sealed class Video : AnimationOutput
     }
 
     /// <inheritdoc/>
-    public override string Name => _path;
-
-    /// <inheritdoc/>
     /// <exception cref="IOException">The encoder has failed.</exception>
     public override void Add(PixelImage frame)
     {
@@ -76,7 +70,7 @@ internal sealed class Video : AnimationOutput
 
     /// <inheritdoc/>
     /// <exception cref="IOException">The encoder has failed.</exception>
-    public override void Complete()
+    public override void Complete(bool isPartial = false)
     {
         ThrowIfDisposed();
         _encoder.StandardInput.Close();
@@ -87,11 +81,11 @@ internal sealed class Video : AnimationOutput
         }
 
         _isComplete = true;
-        AtomicFile.Write(_path, stream =>
+        Save(stream =>
         {
             using var video = File.OpenRead(_unfinishedPath);
             video.CopyTo(stream);
-        });
+        }, isPartial);
     }
 
     /// <inheritdoc/>
@@ -116,6 +110,6 @@ internal sealed class Video : AnimationOutput
     private IOException Failure()
     {
         var message = _messages.Wait(TimeSpan.FromSeconds(2)) ? _messages.Result.Trim().ReplaceLineEndings(" ") : "";
-        return new($"{_path} can't be written: ffmpeg {(message.Length > 0 ? $"says: {message}" : "has ended")}");
+        return new($"{Name} can't be written: ffmpeg {(message.Length > 0 ? $"says: {message}" : "has ended")}");
     }
 }

@@ -44,6 +44,9 @@ public sealed class CsvExport : SceneExport
             }
         }
 
-        return new(count == 1 ? "1 instance" : FormattableString.Invariant($"{count} instances"));
+        return new(count == 1 ? "1 instance" : FormattableString.Invariant($"{count} instances"))
+        {
+            Losses = ExportedScene.LossesOf(scene),
+        };
     }
 }

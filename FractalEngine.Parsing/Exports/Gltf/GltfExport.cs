@@ -43,9 +43,8 @@ public sealed class GltfExport : SceneExport
                     exported.Parts.SelectMany(static part => part.Placed.Model.Materials.Values).Distinct().Count(static one =>
                         one.OpacityTexture is not null || (one.BumpTexture is not null && one.NormalTexture is null)),
                     "images of opacity or heights are left out, in materials: {0}"),
-                .. Tell(
-                    exported.Parts.Any(static part => part.Placed.ShownGradient is { HasSurface: true }) ? 1 : 0,
-                    "a gradient changes colours in the file, but neither roughness nor glow"),
+                .. ExportedScene.LossesOf(scene, keepsTextures: true),
+                .. LittleEndianWriter.LossesOf(scene, frame),
                 .. Tell(
                     scene.Scene is { Camera: not null, Projection: Projection.Orthographic } ? 1 : 0,
                     "the camera is not written, since it is orthographic"),

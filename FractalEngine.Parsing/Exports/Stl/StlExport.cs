@@ -19,7 +19,8 @@ public sealed class StlExport : SceneExport
     public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
     {
         ArgumentNullException.ThrowIfNull(stream);
-        var exported = ExportedScene.Of(scene, settings, ExportFrame.Printing.From(scene, settings));
+        var frame = ExportFrame.Printing.From(scene, settings);
+        var exported = ExportedScene.Of(scene, settings, frame);
         if (exported.FaceCount > uint.MaxValue)
         {
             throw new FractalLimitException($"{exported.Contents} are more than an STL file can count: {uint.MaxValue}");
@@ -35,7 +36,7 @@ public sealed class StlExport : SceneExport
         }
 
         writer.Flush();
-        return new(exported.Contents) { Losses = ExportedScene.LossesOf(scene) };
+        return new(exported.Contents) { Losses = [.. ExportedScene.LossesOf(scene), .. LittleEndianWriter.LossesOf(scene, frame)] };
     }
 
     private static void WritePart(ExportedPart part, LittleEndianWriter writer)

@@ -45,7 +45,7 @@ public sealed class ThreeMfExport : SceneExport
         {
             Add("[Content_Types].xml", part => part.Write(Encoding.UTF8.GetBytes(ContentTypes)));
             Add("_rels/.rels", part => part.Write(Encoding.UTF8.GetBytes(Relationships)));
-            Add(ModelPath, model.Write);
+            Add(ModelPath, part => model.Write(part, settings.Progress));
 
             void Add(string path, Action<Stream> write)
             {

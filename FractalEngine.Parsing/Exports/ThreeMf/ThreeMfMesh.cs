@@ -37,7 +37,9 @@ internal sealed class ThreeMfMesh
         _colours is [var first, ..] ? FormattableString.Invariant($" pid=\"{MaterialsId}\" pindex=\"{first}\"") : "";
 
     /// <summary>Writes the content of the object.</summary>
-    public void Write(TextWriter text)
+    /// <param name="text">Receives it.</param>
+    /// <param name="progress">Told the written part; null for nobody.</param>
+    public void Write(TextWriter text, IProgress<double>? progress)
     {
         var mesh = _part.Mesh;
         var representatives = VertexWelding.FindRepresentatives(mesh);
@@ -69,6 +71,8 @@ internal sealed class ThreeMfMesh
                 {
                     text.Write(FormattableString.Invariant($"<triangle v1=\"{first}\" v2=\"{second}\" v3=\"{third}\"{colour}/>\n"));
                 }
+
+                progress?.Report((i + 3.0) / mesh.VertexIndices.Length);
             }
         }
 

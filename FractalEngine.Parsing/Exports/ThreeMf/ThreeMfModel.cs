@@ -57,7 +57,9 @@ internal sealed class ThreeMfModel
     public int ObjectCount => _objects.Count;
 
     /// <summary>Writes the model as XML, all of whose values are numbers.</summary>
-    public void Write(Stream stream)
+    /// <param name="stream">Receives it.</param>
+    /// <param name="progress">Told the written part of each mesh; null for nobody.</param>
+    public void Write(Stream stream, IProgress<double>? progress)
     {
         using var text = new StreamWriter(stream, new UTF8Encoding(false), bufferSize: 1 << 16, leaveOpen: true);
         text.Write("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
@@ -72,7 +74,7 @@ internal sealed class ThreeMfModel
             text.Write(FormattableString.Invariant($"<object id=\"{index + FirstId}\"{meshes[index]?.Attributes}>"));
             if (meshes[index] is { } mesh)
             {
-                mesh.Write(text);
+                mesh.Write(text, progress);
             }
             else
             {

@@ -19,7 +19,9 @@ namespace FractalEngine.Parsing.Exports.Web;
 /// <param name="levels">Their levels, in the same order.</param>
 /// <param name="options">How the models were loaded.</param>
 /// <param name="losses">Receives a sentence for each number that can't be a slider.</param>
-internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebLevels> levels, LoadOptions options, ISet<string> losses)
+/// <param name="progress">Told the part of all values that is done; null for nobody.</param>
+internal sealed class WebNumbers(
+    IReadOnlyList<Model> models, IReadOnlyList<WebLevels> levels, LoadOptions options, ISet<string> losses, IProgress<double>? progress)
 {
     // Sliders stop at these values alone where levels differ.
     private const int MaxSamples = 17;
@@ -35,7 +37,7 @@ internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebL
         var paths = models.OfType<FractalModel>().Where(static model => !model.NumberNames.IsEmpty || model.SourcePath is not null)
             .Select(static model => model.SourcePath).OfType<string>().Distinct().ToArray();
         Array.ForEach(paths, FindNumbers);
-        var count = 0;
+        var (count, done) = (0, 0);
         json.WriteStartArray("numbers");
         foreach (var (name, number) in _numbers)
         {
@@ -44,6 +46,8 @@ internal sealed class WebNumbers(IReadOnlyList<Model> models, IReadOnlyList<WebL
                 Write(json, name, number, samples);
                 count++;
             }
+
+            progress?.Report((double)++done / _numbers.Count);
         }
 
         json.WriteEndArray();

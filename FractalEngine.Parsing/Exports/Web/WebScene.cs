@@ -83,7 +83,7 @@ internal sealed class WebScene
             json.WriteEndArray();
             WriteObjects(json);
             WriteMaterials(json);
-            _sliders = new WebNumbers(_models, _levels, _settings.Load, _losses).Write(json);
+            _sliders = new WebNumbers(_models, _levels, _settings.Load, _losses, _settings.Progress).Write(json);
             json.WriteEndObject();
         }
 

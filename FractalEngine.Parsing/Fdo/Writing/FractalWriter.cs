@@ -43,7 +43,8 @@ public sealed class FractalWriter
     /// For each base mesh the name of its file, relative to the fractal file, or one of the <see cref="BaseShapes"/>.
     /// </param>
     /// <exception cref="FractalEngineException">
-    /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, or a limit is exceeded.
+    /// The language can't express the fractal: a scale is singular, steps follow an infinite repetition, what has choices or ends by size
+    /// has a placement, or a limit is exceeded.
     /// </exception>
     /// <remarks>Time and memory are proportional to the text, which has at most 16 MiB.</remarks>
     public static string Write(FractalDescription description, params ImmutableArray<string> baseFiles) =>
@@ -152,6 +153,10 @@ public sealed class FractalWriter
 
             switch (step)
             {
+                case TransformationSet { IsPlacement: true }:
+                    throw Fault(
+                        ErrorKind.Input,
+                        "it is moved, and a file would count that as a level, with other choices or ends: place it in a scene");
                 case TransformationSet set:
                     var form = new FractalSetForm(set);
                     _forms.Add(set, form);

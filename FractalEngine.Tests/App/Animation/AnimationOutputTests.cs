@@ -59,6 +59,27 @@ public sealed class AnimationOutputTests : IDisposable
         Assert.Equal(_folder["f.APNG"], output.Name);
     }
 
+    /// <summary>The whole film of an earlier run is worth more than the frames before an interruption.</summary>
+    [Fact]
+    public void Complete_OfFramesBeforeAnInterruption_ReplacesNoFile()
+    {
+        _folder.Write("f.apng", "whole");
+        long[] lengths = [.. Enumerable.Range(1, 2).Select(frameCount =>
+        {
+            using var output = AnimationOutput.Create(_folder["f.apng"], 3, 25)!;
+            for (int frame = 0; frame < frameCount; frame++)
+            {
+                output.Add(Pixel);
+            }
+
+            output.Complete(isPartial: true);
+            Assert.Equal(_folder[frameCount == 1 ? "f.partial.apng" : "f.partial-2.apng"], output.Name);
+            return new FileInfo(output.Name).Length;
+        })];
+        Assert.True(lengths[0] < lengths[1]);
+        Assert.Equal("whole", File.ReadAllText(_folder["f.apng"]));
+    }
+
     [Theory]
     [InlineData("a.gif", 100, false, null)]
     [InlineData("a.GIF", 100.5, false, "a .gif has at most 100 frames a second, not 100.5: expected a smaller --fps, or .apng")]

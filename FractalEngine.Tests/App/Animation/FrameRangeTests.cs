@@ -1,3 +1,4 @@
+using FractalEngine.App.Animation;
 using FractalEngine.App.Shell;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
@@ -38,13 +39,13 @@ public sealed class FrameRangeTests : DrawingCommandTests
         Assert.Equal(0, Animate("part.png", "--only", "1..3").ExitCode);
         Assert.Equal(all, Frames("part"));
 
-        // One frame is lost, and another one marked: what is there stays.
+        // One frame is lost, one was cut, and another one is marked: what is there and whole stays.
         File.Delete(Folder["part-0002.png"]);
-        File.WriteAllText(Folder["part-0004.png"], "mark");
+        File.WriteAllBytes(Folder["part-0003.png"], all[2][..^20]);
+        File.WriteAllBytes(Folder["part-0004.png"], all[0]);
         (_, _, report) = Animate("part.png", "--resume");
-        Assert.StartsWith("wrote part-0001.png to part-0005.png: 1 frame, 4 were there", report, StringComparison.Ordinal);
-        Assert.Equal(all[1], File.ReadAllBytes(Folder["part-0002.png"]));
-        Assert.Equal("mark", File.ReadAllText(Folder["part-0004.png"]));
+        Assert.StartsWith("wrote part-0001.png to part-0005.png: 2 frames, 3 were there", report, StringComparison.Ordinal);
+        Assert.Equal([all[0], all[1], all[2], all[0], all[4]], Frames("part"));
 
         Assert.Equal(0, Animate("one.apng").ExitCode);
         var joined = Run("animate", "all.png", "--join", "--output", "joined.apng", "--fps", "10");
@@ -53,11 +54,30 @@ public sealed class FrameRangeTests : DrawingCommandTests
         Assert.Equal(File.ReadAllBytes(Folder["one.apng"]), File.ReadAllBytes(Folder["joined.apng"]));
     }
 
+    [Theory]
+    [InlineData(".png")]
+    [InlineData(".hdr")]
+    [InlineData(".exr")]
+    public void IsComplete_OfAFrame_IsFalseWhereItWasCut(string ending)
+    {
+        Assert.Equal(0, Animate("f" + ending, "--only", "1..1").ExitCode);
+        var path = Folder["f-0001" + ending];
+        Assert.True(FrameFile.IsComplete(path));
+        var bytes = File.ReadAllBytes(path);
+        foreach (int length in (int[])[0, 1, 7, bytes.Length / 4, bytes.Length / 2, bytes.Length - 1])
+        {
+            File.WriteAllBytes(path, bytes[..length]);
+            Assert.False(FrameFile.IsComplete(path), $"{length} bytes");
+        }
+
+        Assert.False(FrameFile.IsComplete(Folder["none" + ending]));
+    }
+
     [Fact]
     public void Join_OfMissingOrNoImages_SaysSo()
     {
         Assert.Equal(
-            new(ExitCode.WrongUsage, "", "error: there are no numbered images of none.png, such as none-0001.png\n"),
+            new(ExitCode.BadInput, "", "error: there are no numbered images of none.png, such as none-0001.png\n"),
             Run("animate", "none.png", "--join", "--output", "x.apng"));
         Folder.Write("f-0001.png", "");
         Folder.Write("f-0003.png", "");
@@ -69,6 +89,9 @@ public sealed class FrameRangeTests : DrawingCommandTests
         new PixelImage(1, 3, new byte[12]).SavePng(Folder["g-0002.png"]);
         (code, _, error) = Run("animate", "g.png", "--join", "--output", "x.apng");
         Assert.Equal((1, "error: g-0002.png has 1×3 pixels, and g-0001.png has 2×1\n"), (code, error));
+        Folder.Write("g-0001.png", "cut");
+        (code, _, error) = Run("animate", "g.png", "--join", "--output", "x.apng");
+        Assert.Equal((1, "error: g-0001.png can't be read: it is not a PNG, JPEG, BMP or TGA image\n"), (code, error));
         Assert.False(File.Exists(Folder["x.apng"]));
     }
 

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Parsing;
+using FractalEngine.Parsing.Assets;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Commands;
@@ -19,6 +20,56 @@ public sealed class ExportFormatTests : IDisposable
     [InlineData("obj", "36096 faces, closed, ")]
     public void Weld_OfASpongeOfCubes_ClosesIt(string ending, string told) =>
         Assert.StartsWith($"wrote out.{ending}: {told}", Export(0, ending, "menger-3", "--weld"), StringComparison.Ordinal);
+
+    /// <summary>What a format can't hold is told, a line each; welding loses more.</summary>
+    [Theory]
+    [InlineData("ply", "textures are not written", "roughness, metal and glow of gradients are not written")]
+    [InlineData("csv", "textures are not written", "roughness, metal and glow of gradients are not written")]
+    [InlineData("obj", "roughness, metal and glow of gradients are not written")]
+    [InlineData("glb", "roughness, metal and glow of gradients are not written")]
+    [InlineData("ply --weld", "textures are not written", "roughness, metal and glow of gradients are not written",
+        "colours of vertices are not written")]
+    [InlineData("glb --weld", "textures are not written", "roughness, metal and glow of gradients are not written",
+        "colours of vertices are not written")]
+    public void Losses_OfAFormat_AreTold(string output, params string[] losses)
+    {
+        File.Copy(Repository.Full("assets/models/crate.png"), _folder["crate.png"]);
+        _folder.Write("m.mtl", "newmtl Tiles\nmap_Kd crate.png\n");
+        _folder.Write("tiles.fdo", "<$>. box material \"m.mtl\"\n");
+        _folder.Write("row.fdo", "<$>. [((3, 0, 0), #, #)^0..3] box\n");
+        _folder.Write("painted.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 2 0 0 0 1\nf 1 2 3\n");
+        _folder.Write(
+            "s.sdo",
+            "c (0, 0, -5) # 60\nlight directional (0, -1, 0) (1, 1, 1) 1\no \"tiles.fdo\" #\no \"painted.obj\" ((0, 9, 0), #, #)\n"
+            + "o \"row.fdo\" ((0, 5, 0), #, #) gradient height \"ember\" glow 0 1\n");
+        string[] words = output.Split(' ');
+        var (code, _, error) = AppInProcess.Run(_folder.Path, ["export", "s.sdo", "--output", $"out.{words[0]}", .. words[1..]]);
+        Assert.Equal(0, code);
+        Assert.Equal(losses.Select(loss => $"out.{words[0]}: warning: {loss}"), error.Trim().Split('\n')[1..]);
+        if (words[0] == "glb")
+        {
+            var read = AssetLoader.Load(_folder["out.glb"]).Scene.Scene;
+            Assert.NotNull(read.Camera);
+            Assert.Single(read.Lights);
+        }
+    }
+
+    /// <summary>Coordinates that floats round to one place make no shape.</summary>
+    [Theory]
+    [InlineData("stl", "1e-40", "0")]
+    [InlineData("glb", "1e-40", "0")]
+    [InlineData("stl", "1e-3", "1e6")]
+    [InlineData("glb", "1e-3", "1e6")]
+    public void Lengths_ThatFloatsCannotTell_AreTold(string ending, string scale, string distance)
+    {
+        _folder.Write("cube.obj", SampleFiles.Cube);
+        _folder.Write("s.sdo", $"o \"cube.obj\" (({distance}, 0, 0), #, ({scale}, {scale}, {scale}))\n");
+        var (code, _, error) = AppInProcess.Run(_folder.Path, "export", "s.sdo", "--output", $"out.{ending}");
+        Assert.Equal(0, code);
+        Assert.Contains($"out.{ending}: warning: floats can't tell the parts of what is ", error, StringComparison.Ordinal);
+        (code, _, error) = AppInProcess.Run(_folder.Path, "export", "cube.obj", "--output", $"out.{ending}");
+        Assert.Equal((0, false), (code, error.Contains("floats", StringComparison.Ordinal)));
+    }
 
     [Fact]
     public void Height_OfAnExport_IsThatOfTheFile()

@@ -84,7 +84,7 @@ public sealed class OutputFileTests : IDisposable
             process.Kill();
         }
 
-        Assert.Equal((130, ""), (process.ExitCode, process.StandardError.ReadToEnd()));
+        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
     }
 
     [SkippableTheory]

@@ -69,6 +69,19 @@ public sealed class OpeningTests : IDisposable
     }
 
     [SkippableFact]
+    public void Screenshot_BeforeAnythingIsShown_SaysSo()
+    {
+        // Takes seconds to count.
+        _folder.Write(
+            "slow.fdo",
+            "a. ((1, 0, 0), #, (0.5))\nx. box\ny. ball\nz<x>, w<y>. [a.] x + y + box, [a.] y + x + ball\n<$>. z 100000\n");
+        using var window = DrivenWindow.Open(_folder, "slow.fdo");
+        window.Send("key F12");
+        window.WaitForError("no screenshot yet: nothing is shown");
+        window.Kill();
+    }
+
+    [SkippableFact]
     public void Open_OfABadFile_LeavesTheSceneAsItIs()
     {
         using var window = Open();

@@ -74,6 +74,8 @@ public class ActionTableTests
         Assert.Equal("view-top", ActionTable.Find(new(Key.Keypad7, KeyModifiers.Shift, false))?.Id);
         Assert.Equal("open", ActionTable.Find(new(Key.O, KeyModifiers.Control | KeyModifiers.Shift, false))?.Id);
         Assert.Null(ActionTable.Find(new(Key.F, KeyModifiers.Control, false)));
+        // + needs Shift on many keyboards.
+        Assert.Equal("larger-text", ActionTable.Find(new(Key.Plus, KeyModifiers.Control | KeyModifiers.Shift, false))?.Id);
     }
 
     [Fact]
