@@ -37,6 +37,31 @@ public class RigidEnergyTests
     [Trait("Category", "Soak")]
     public void ManyBodies_ThrownIntoABox_GainNoEnergy() => Throw(5000);
 
+    [Fact]
+    public void Bodies_ThatMeetInSpace_GainNoEnergyAndKeepTheirMomentum() => Seeded.Run(60, random =>
+    {
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
+        foreach (var place in (Vector[])[Vector.I, -Vector.I, Vector.J, -Vector.K])
+        {
+            world.Add(new BodyDescription((4 * place) + random.Vector(0.3), new MeshShape(Model.Of(RigidMeshes.CreateL(0.4)), random.Orthogonal()))
+            {
+                Mass = Math.Pow(10, random.Between(-1, 1)),
+                Velocity = -random.Between(10, 30) * place,
+                AngularVelocity = 20 * random.Direction(),
+                Restitution = 1,
+                Friction = random.NextDouble(),
+            });
+        }
+
+        var (energy, momentum) = (world.Energy(), world.Momentum());
+        world.Run(20, () =>
+        {
+            Assert.True(world.Energy() <= (1 + MaxGain) * energy, $"{world.Energy():R} J, {energy:R} J before, step {world.StepCount}");
+            energy = world.Energy();
+            Near.Equal(momentum, world.Momentum(), 1e-9 * momentum.Length());
+        });
+    });
+
     private static void Throw(int count) => Seeded.Run(count, random =>
     {
         var world = TestWorlds.Create(
