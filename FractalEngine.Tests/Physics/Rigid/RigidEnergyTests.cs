@@ -43,7 +43,8 @@ public class RigidEnergyTests
         var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
         foreach (var place in (Vector[])[Vector.I, -Vector.I, Vector.J, -Vector.K])
         {
-            world.Add(new BodyDescription((4 * place) + random.Vector(0.3), new MeshShape(Model.Of(RigidMeshes.CreateL(0.4)), random.Orthogonal()))
+            var shape = new MeshShape(Model.Of(RigidMeshes.CreateL(0.4)), random.Orthogonal());
+            world.Add(new BodyDescription((4 * place) + random.Vector(0.3), shape)
             {
                 Mass = Math.Pow(10, random.Between(-1, 1)),
                 Velocity = -random.Between(10, 30) * place,
