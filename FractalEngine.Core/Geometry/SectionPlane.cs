@@ -1,3 +1,4 @@
+using System.Globalization;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Geometry;
@@ -70,4 +71,8 @@ public readonly record struct SectionPlane(Vector Normal, double Distance)
 
         return minDistance <= maxDistance;
     }
+
+    /// <inheritdoc/>
+    public override string ToString() =>
+        string.Create(CultureInfo.InvariantCulture, $"{Normal} · p = {Distance:R}{(HasCap ? "" : ", hollow")}");
 }

@@ -29,14 +29,6 @@ internal sealed class SurfaceTexture : Texture2D
     /// <param name="unit">The texture unit.</param>
     public void Bind(bool isClamped, int unit = 0)
     {
-        if (Resources.State.Filter.Update(ref _isClamped, isClamped))
-        {
-            Bind();
-            var mode = (int)(isClamped ? TextureWrapMode.ClampToEdge : TextureWrapMode.Repeat);
-            GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapS, mode);
-            GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapT, mode);
-        }
-
         if (unit == 0)
         {
             Bind();
@@ -44,6 +36,16 @@ internal sealed class SurfaceTexture : Texture2D
         else
         {
             BindTo(unit);
+        }
+
+        if (Resources.State.Filter.Update(ref _isClamped, isClamped))
+        {
+            // On its own unit: the first one has the colours of the same surface.
+            GL.ActiveTexture(TextureUnit.Texture0 + unit);
+            var mode = (int)(isClamped ? TextureWrapMode.ClampToEdge : TextureWrapMode.Repeat);
+            GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapS, mode);
+            GL.TexParameter(TextureTarget.Texture2D, TextureParameterName.TextureWrapT, mode);
+            GL.ActiveTexture(TextureUnit.Texture0);
         }
     }
 

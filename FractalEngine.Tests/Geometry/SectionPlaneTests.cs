@@ -63,4 +63,12 @@ public class SectionPlaneTests
         Assert.Throws<ArgumentException>(static () => SectionPlane.Of(Vector.I, double.NaN));
         Assert.Throws<ArgumentException>(static () => SectionPlane.Of(new(double.PositiveInfinity, 0, 0), 1));
     }
+
+    /// <summary>A record prints its properties, and a flipped plane has a flipped plane itself.</summary>
+    [Fact]
+    public void ToString_NamesThePlaneOnce()
+    {
+        Assert.Equal("(0, 1, 0) · p = 2", new SectionPlane(Vector.J, 2).ToString());
+        Assert.Equal("(1, 0, 0) · p = -0.5, hollow", new SectionPlane(Vector.I, -0.5) { HasCap = false }.ToString());
+    }
 }

@@ -62,6 +62,21 @@ public sealed class GlossDrawingTests
         }
     }
 
+    /// <summary>How a texture of heights is repeated is set in the first frame, which left it in the place of the colours.</summary>
+    [SkippableFact]
+    public void Texture_OfASurfaceWithHeights_IsShownInTheFirstFrame()
+    {
+        using var textures = new TexturedScenes();
+        var material = new Material("m")
+        {
+            Texture = textures.CreateTexture("colours.png", 2, 2, static (_, _) => (255, 0, 0, 255)),
+            BumpTexture = textures.CreateTexture("heights.png", 2, 2, static (_, _) => (0, 0, 128, 255)),
+        };
+        var scene = RenderScenes.Scene(
+            new() { Lights = [RenderScenes.FullLight] }, (TexturedScenes.CreateSquare(1, material), Transformation.Identity, null));
+        Assert.Equal((255, 0, 0, 255), RenderScenes.Draw(scene, RenderScenes.FrontView)[100, 75]);
+    }
+
     [SkippableTheory]
     [InlineData(Projection.Perspective)]
     [InlineData(Projection.Orthographic)]

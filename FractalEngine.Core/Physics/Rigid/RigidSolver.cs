@@ -27,7 +27,8 @@ internal static class RigidSolver
     /// <param name="states">The bodies, and what no force moves.</param>
     /// <param name="rows">The contacts; their impulses are those of the last substep for a start.</param>
     /// <param name="substep">Length of the substep, seconds.</param>
-    public static void Solve(Span<RigidState> states, Span<RigidRow> rows, double substep)
+    /// <param name="guard">Takes back energy that contacts add.</param>
+    public static void Solve(Span<RigidState> states, Span<RigidRow> rows, double substep, RigidEnergyGuard guard)
     {
         foreach (ref var row in rows)
         {
@@ -35,10 +36,12 @@ internal static class RigidSolver
         }
 
         Accelerate(states, substep);
+        guard.Begin(states, rows);
         WarmStart(states, rows);
         SolveRounds(states, rows, substep);
         Move(states, substep);
         Bounce(states, rows);
+        guard.End(states);
         RestoreGaps(states, rows);
     }
 

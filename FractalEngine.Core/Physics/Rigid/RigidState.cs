@@ -57,6 +57,16 @@ internal struct RigidState
     /// <summary>True for a body that forces move.</summary>
     public readonly bool IsDynamic => InverseMass > 0;
 
+    /// <summary>Energy of motion of a body that forces move, joules.</summary>
+    public readonly double KineticEnergy
+    {
+        get
+        {
+            var spin = Turn.After(Orientation).RotateBack(Spin);
+            return 0.5 * ((Velocity.LengthSquared() / InverseMass) + Vector.Dot(spin, LocalInertia * spin));
+        }
+    }
+
     /// <summary>Computes the velocity of a point of the body.</summary>
     /// <param name="arm">The point relative to the reference point.</param>
     public readonly Vector VelocityAt(Vector arm) => Velocity + Vector.Cross(Spin, arm);
@@ -112,8 +122,9 @@ internal struct RigidState
     /// <param name="before">How it was turned when its spin was as it is now.</param>
     public void TurnTo(in Orientation turn, in Orientation before)
     {
-        Turn = turn;
+        // In this order: either of the two may be the turn of this state itself.
         Spin = turn.After(before.Inverse()).Rotate(Spin);
+        Turn = turn;
         UpdateInertia();
     }
 

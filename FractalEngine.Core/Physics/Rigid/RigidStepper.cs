@@ -36,6 +36,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     private readonly List<RigidRow> _rows = [];
     private readonly List<RigidRow> _renewed = [];
     private readonly RigidSweep _sweep = new();
+    private readonly RigidEnergyGuard _guard = new();
     private readonly RigidSleep _sleep = new(settings, bodies);
     private RigidState[] _states = [];
     private RigidSurface? _character;
@@ -419,7 +420,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             state.BeginSubstep();
         }
 
-        RigidSolver.Solve(states, CollectionsMarshal.AsSpan(_rows), fraction * _seconds);
+        RigidSolver.Solve(states, CollectionsMarshal.AsSpan(_rows), fraction * _seconds, _guard);
         PlanMotions(time, fraction);
         _sweep.StopBodies(_pairs, _surfaces);
         var cut = canCut ? FirstPush() : 1;

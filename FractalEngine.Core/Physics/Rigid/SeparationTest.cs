@@ -209,9 +209,11 @@ internal readonly ref struct SeparationTest
         return time;
     }
 
+    // On approach the root is as large as the speed to many digits: their difference would tell nothing where bodies are fast.
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private double SafeTime(double room, double speed) =>
-        _curvature > 0 ? (speed + Math.Sqrt((speed * speed) + (4 * _curvature * room))) / (2 * _curvature)
+        _curvature > 0 && speed < 0 ? 2 * room / (Math.Sqrt((speed * speed) + (4 * _curvature * room)) - speed)
+        : _curvature > 0 ? (speed + Math.Sqrt((speed * speed) + (4 * _curvature * room))) / (2 * _curvature)
         : speed < 0 ? room / -speed
         : double.PositiveInfinity;
 

@@ -1,0 +1,90 @@
+using FractalEngine.Core.Generation;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+using FractalEngine.Core.Physics.Rigid;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Tests.Support;
+
+namespace FractalEngine.Tests.Physics.Rigid;
+
+/// <summary>Bodies of meshes that are thrown into corners, of whose energy nothing is gained.</summary>
+public class RigidEnergyTests
+{
+    // Of the energy that there is, in a step.
+    private const double MaxGain = 1e-3;
+
+    /// <summary>The turn that a state has may be what it is turned from, by reference, as it may be what it is turned to.</summary>
+    [Fact]
+    public void State_TurnedFromItsOwnTurn_KeepsItsEnergy()
+    {
+        var state = new RigidState
+        {
+            InverseMass = 1, Turn = Orientation.Identity, Orientation = Orientation.Identity, Spin = new(1, 2, 3),
+            LocalInertia = new(Vector.I, 10 * Vector.J, 100 * Vector.K),
+        };
+        state.LocalInverseInertia = state.LocalInertia.Inverse();
+        var energy = state.KineticEnergy;
+        state.TurnTo(Orientation.Identity.TurnedBy(new(0.3, -1, 0.2)), state.Turn);
+        Assert.Equal(energy, state.KineticEnergy, 1e-12 * energy);
+        Assert.NotEqual(new(1, 2, 3), state.Spin);
+    }
+
+    [Fact]
+    public void Bodies_ThrownIntoABox_GainNoEnergy() => Throw(60);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void ManyBodies_ThrownIntoABox_GainNoEnergy() => Throw(5000);
+
+    [Fact]
+    public void Bodies_ThatMeetInSpace_GainNoEnergyAndKeepTheirMomentum() => Seeded.Run(60, random =>
+    {
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
+        foreach (var place in (Vector[])[Vector.I, -Vector.I, Vector.J, -Vector.K])
+        {
+            var shape = new MeshShape(Model.Of(RigidMeshes.CreateL(0.4)), random.Orthogonal());
+            world.Add(new BodyDescription((4 * place) + random.Vector(0.3), shape)
+            {
+                Mass = Math.Pow(10, random.Between(-1, 1)),
+                Velocity = -random.Between(10, 30) * place,
+                AngularVelocity = 20 * random.Direction(),
+                Restitution = 1,
+                Friction = random.NextDouble(),
+            });
+        }
+
+        var (energy, momentum) = (world.Energy(), world.Momentum());
+        world.Run(20, () =>
+        {
+            Assert.True(world.Energy() <= (1 + MaxGain) * energy, $"{world.Energy():R} J, {energy:R} J before, step {world.StepCount}");
+            energy = world.Energy();
+            Near.Equal(momentum, world.Momentum(), 1e-9 * momentum.Length());
+        });
+    });
+
+    private static void Throw(int count) => Seeded.Run(count, random =>
+    {
+        var world = TestWorlds.Create(
+            Vector.Zero, 1 / 60.0, TestWorlds.Place(Shapes.Box(new(-10 * Vector.One, 10 * Vector.One))));
+        var meshes = (Mesh[])[RigidMeshes.Box(1, 0.1, 0.3), RigidMeshes.CreateL(0.4), Shapes.Sphere(1), PhysicsMeshes.Cube];
+        for (var i = random.Next(1, 4); i > 0; i--)
+        {
+            world.Add(new BodyDescription(new(4 * (i - 2), 0, 0), new MeshShape(Model.Of(meshes[random.Next(4)]), random.Orthogonal()))
+            {
+                Mass = Math.Pow(10, random.Between(-1, 1)),
+                Velocity = Math.Pow(10, random.Between(0, 5)) * random.Direction(),
+                AngularVelocity = Math.Pow(10, random.Between(0, 3)) * random.Direction(),
+                Restitution = random.Next(2),
+                Friction = random.Next(2) * random.NextDouble(),
+            });
+        }
+
+        var energy = world.Energy();
+        world.Run(12, () =>
+        {
+            Assert.True(world.Energy() <= (1 + MaxGain) * energy, $"{world.Energy():R} J, {energy:R} J before, step {world.StepCount}");
+            energy = world.Energy();
+        });
+    });
+}
