@@ -30,7 +30,7 @@ public sealed class NullArgumentTests : IDisposable
     // Types of inner layers, whose callers have checked before: a null ends in a NullReferenceException there.
     private static readonly string[] Unchecked =
     [
-        "AdaptiveQuality", "AnimationOutput", "AtomicFile", "BodyCsvWriter", "BodyDescription", "CameraFraming",
+        "AnimationOutput", "AtomicFile", "BodyCsvWriter", "BodyDescription", "CameraFraming",
         "CameraNavigation", "CameraZoom", "DeepZoomRayCaster", "DistinctInstances", "EditedFile",
         "EditedFileWriter", "ExactFractalCollider", "FileEdits", "FlyingCamera", "FractalAddress", "FractalBounds",
         "FractalComments", "FractalGenerator", "FractalNumber", "FractalPartList", "FractalSteps", "FractalWriter",

@@ -154,6 +154,11 @@ internal sealed class SceneWindow : IDisposable
         // A slow frame between two clicks does not part a double click.
         var redraw = _events.Dispatch(windowEvent, _clock.Elapsed - _refreshTime);
         _redraw |= redraw;
+        if (redraw != Redraw.None)
+        {
+            _windowRenderer.RecordInput();
+        }
+
         if (!wasMoving)
         {
             // Time begins to count with the event that starts a movement.

@@ -9,8 +9,9 @@ namespace FractalEngine.Render.Views;
 /// <remarks>
 /// Where frames take more than 50 ms, squares of up to 3 × 3 pixels are drawn as one, if that is allowed. The minimum projected size stays
 /// between 3 and 24 of what is drawn as a pixel, 8 with shadows, and follows the frame time so that ten frames a second are drawn. Both
-/// change at most every fourth frame, since each change discards what was culled ahead. Draw with <see cref="Adapt(RenderSettings, bool)"/> and pass the time
-/// taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once more with the full settings.
+/// change at most every fourth frame, since each change discards what was culled ahead. Draw with
+/// <see cref="Adapt(RenderSettings, bool)"/> and pass the time taken to <see cref="RecordFrameTime"/>. When the camera stops, draw once
+/// more with the full settings.
 /// </remarks>
 public sealed class AdaptiveQuality
 {

@@ -26,6 +26,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
 
     // Where a full frame takes longer, one that follows another one at once is coarser.
     private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.05);
+
     // A window does not answer while it draws a full frame, so a slow one waits longer until it is likely that nothing follows.
     private static readonly TimeSpan MinRestTime = TimeSpan.FromSeconds(0.15);
     private static readonly TimeSpan MaxRestTime = TimeSpan.FromSeconds(0.6);
@@ -38,6 +39,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     private TimeSpan _gatherTime;
     private TimeSpan _fullFrameTime;
     private long _lastFrame;
+    private long _lastInput;
     private bool _isBetweenOthers;
 
     /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
@@ -48,11 +50,11 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     /// </summary>
     public bool IsReducedQuality { get; private set; }
 
-    /// <summary>Whether a frame that is drawn now follows another one so soon that a full one would be late.</summary>
-    public bool FollowsAtOnce => (!IsReducedQuality || _isBetweenOthers) && _fullFrameTime > SlowFrameTime
-        && Stopwatch.GetElapsedTime(_lastFrame) < RestTime;
+    /// <summary>Whether a frame that is drawn now follows another one and the user's input so soon that a full one would be late.</summary>
+    public bool FollowsAtOnce => _shownView is not null && (!IsReducedQuality || _isBetweenOthers) && _fullFrameTime > SlowFrameTime
+        && Stopwatch.GetElapsedTime(Math.Min(_lastFrame, _lastInput)) < RestTime;
 
-    /// <summary>How long the next full frame waits for another coarse one: the user may turn the camera, or move a slider.</summary>
+    /// <summary>How long the next full frame waits for another coarse one: the user may go on turning the camera.</summary>
     public TimeSpan TimeToFullFrame => _isBetweenOthers ? RestTime - Stopwatch.GetElapsedTime(_lastFrame) : TimeSpan.Zero;
 
     /// <summary>Whether another frame would sharpen the one that is shown, in time.</summary>
@@ -83,6 +85,9 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         _gatherTime = Stopwatch.GetElapsedTime(start);
         return BitOperations.IsPow2(frame.GatheredCount) || !CanGather(settings);
     }
+
+    /// <summary>Notes that the user has changed what is shown.</summary>
+    public void RecordInput() => _lastInput = Stopwatch.GetTimestamp();
 
     /// <summary>Counts a frame that is presented again, below a new overlay.</summary>
     public void CountPresentedAgain() => _presentedAgainCount++;
@@ -124,7 +129,6 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         if (_shownView is null && document is { IsReload: false, File.Kind: FileKind.Scene })
         {
             IsReducedQuality = true;
-            _isBetweenOthers = false;
             _shownView = view;
             _nextView = view;
             var preview = _adaptiveQuality.Adapt(settings) with { Shadows = false };
