@@ -100,7 +100,7 @@ public sealed class FrameRenderer : IDisposable
         {
             MakeCurrent();
             _gatheredTarget ??= new(
-                _context.Resources, "gathered frames", width, height,
+                _context.Resources, "gathered frames", _targetState.Width, _targetState.Height,
                 KeepsLight ? PixelInternalFormat.Rgba32f : PixelInternalFormat.Rgba16f);
             _meanCount = 0;
             if (!view.HasLens)
@@ -123,7 +123,7 @@ public sealed class FrameRenderer : IDisposable
         }
 
         DrawFrame(
-            scene, isPerspective ? view : view.MovedBy(offset, width, height), width, height, settings, null,
+            scene, isPerspective ? view : view.MovedBy(offset, width, height), _targetState.Width, _targetState.Height, settings, null,
             isPerspective ? offset : default);
         GatheredCount++;
         AddToMean();

@@ -75,24 +75,16 @@ public readonly record struct SurfaceSummary(double? Area, double? Volume, (stri
     /// <summary>Measures objects whose area does not follow from that of their base meshes, all or none.</summary>
     private static double? ExpandedArea(List<PlacedModel> objects)
     {
-        var (area, faces) = (0.0, BigInteger.Zero);
+        var faces = BigInteger.Zero;
         foreach (var placed in objects)
         {
             var isComponentwise = placed.Model is FractalModel { Fractal.Description.Composition: Composition.Componentwise };
             faces += (isComponentwise ? null : placed.Model.FaceCount) ?? MaxExpandedFaces + 1;
         }
 
-        if (faces > MaxExpandedFaces)
-        {
-            return null;
-        }
-
-        foreach (var placed in objects)
-        {
-            area += new[] { placed }.Flatten(MaxExpandedFaces).SurfaceArea();
-        }
-
-        return area;
+        return faces > MaxExpandedFaces
+            ? null
+            : objects.Sum(static placed => new[] { placed }.Flatten(MaxExpandedFaces).SurfaceArea());
     }
 
     private static double? MeasureArea(Model model) => model is not FractalModel { Fractal: var fractal }

@@ -90,6 +90,27 @@ public sealed class GatheringTests
     }
 
     [SkippableFact]
+    public void Gather_LargerPixels_KeepsTheSizeOfTheFrame()
+    {
+        using var context = new SharedContext();
+        using var frames = new FrameRenderer(context);
+        using var scene = new SceneRenderer(
+            context, DrawableScene.Prepare(RenderScenes.WhiteOnBlack(RenderScenes.Sphere(9), Transformation.Identity), new()));
+        var settings = new RenderSettings { PixelSize = 3, Samples = 0 };
+        frames.Draw(scene, RenderScenes.FrontView, Width, Height, settings);
+        var first = frames.Capture();
+        for (var i = 1; i < 8; i++)
+        {
+            frames.Gather(scene, RenderScenes.FrontView, settings);
+        }
+
+        var gathered = frames.Capture();
+        Assert.Equal((Width, Height), (gathered.Width, gathered.Height));
+        var (mean, _) = RenderScenes.Difference(first, gathered);
+        Assert.InRange(mean, 1e-3, 3);
+    }
+
+    [SkippableFact]
     public void Gather_ThenAnotherFrame_ShowsThatAlone()
     {
         using var context = new SharedContext();
