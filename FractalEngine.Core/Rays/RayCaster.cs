@@ -97,9 +97,9 @@ public abstract class RayCaster
 
         var shape = found?.Caster.Value ?? (ShapeRayCaster)this;
         ref readonly var map = ref found is null ? ref Identity : ref found.ObjectToWorld;
-        hit = RayHitFactory.Create(
+        RayHitFactory.Create(
             ray.Origin, direction, in search, minDistance, maxDistance, shape.MeshOf(in search),
-            shape.ResolveInstance(in search, pathLength, in map, context));
+            shape.ResolveInstance(in search, pathLength, in map, context), out hit);
         context.ObjectIndex = found?.Index ?? 0;
         return true;
     }

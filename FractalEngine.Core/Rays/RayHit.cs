@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.CompilerServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
@@ -12,6 +13,7 @@ namespace FractalEngine.Core.Rays;
 /// <param name="IsFrontFace">True where the ray hits the side that the normal points to.</param>
 /// <param name="Barycentrics">Weights of the vertices of the face.</param>
 /// <param name="FaceIndex">Index of the face in the mesh, from 0.</param>
+[method: MethodImpl(MethodImplOptions.AggressiveInlining)]
 public readonly record struct RayHit(
     double Distance, Vector Point, Vector Normal, bool IsFrontFace, Vector Barycentrics, int FaceIndex)
 {

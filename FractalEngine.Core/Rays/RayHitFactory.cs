@@ -20,11 +20,12 @@ internal static class RayHitFactory
     /// <param name="maxDistance">Largest distance of a result.</param>
     /// <param name="mesh">The mesh of the instance.</param>
     /// <param name="map">From the mesh's frame to that of the ray.</param>
+    /// <param name="hit">Receives the result, which is large: returned, it would be copied once more.</param>
     /// <remarks>Not inlined: beside a search, the compiler has no room left for its many operations on vectors.</remarks>
     [MethodImpl(MethodImplOptions.NoInlining)]
-    public static RayHit Create(
+    public static void Create(
         Vector origin, Vector direction, in RaySearch search, double minDistance, double maxDistance,
-        Mesh mesh, in SimdAffineMap map)
+        Mesh mesh, in SimdAffineMap map, out RayHit hit)
     {
         var (a, b, c) = mesh.Face(search.Face);
         (a, b, c) = (map.Apply(a), map.Apply(b), map.Apply(c));
@@ -51,7 +52,7 @@ internal static class RayHitFactory
         }
 
         point = origin + (distance * direction);
-        return new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
+        hit = new(distance, point, normal, Vector.Dot(normal, direction) < 0, weights, search.Face)
         {
             InstanceMap = map.ToAffineMap(),
             Mesh = mesh,

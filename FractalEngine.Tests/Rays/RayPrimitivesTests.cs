@@ -328,7 +328,8 @@ public sealed class RayPrimitivesTests
         foreach (var (minDistance, maxDistance) in new[] { (0.0, 1.2), (1.3, 9.0), (0.0, 9.0) })
         {
             var search = new RaySearch(minDistance, maxDistance, false, 1e-15, default) { MaxDistance = 1.25, Face = 0 };
-            var hit = RayHitFactory.Create(origin, direction, in search, minDistance, maxDistance, mesh, in SimdAffineMap.Identity);
+            RayHitFactory.Create(
+                origin, direction, in search, minDistance, maxDistance, mesh, in SimdAffineMap.Identity, out var hit);
             var distance = Math.Clamp(1.25, minDistance, maxDistance);
             Near.Equal(distance, hit.Distance, 1e-15);
             Near.Equal(origin + (distance * direction), hit.Point, 1e-15);
@@ -349,8 +350,8 @@ public sealed class RayPrimitivesTests
             var target = (0.2 * corners[0]) + (0.3 * corners[1]) + (0.5 * corners[2]);
             var mesh = new Mesh([a.X, a.Y, a.Z, b.X, b.Y, b.Z, c.X, c.Y, c.Z], [0, 1, 2]);
             var search = new RaySearch(0, 9, false, 1e-15, default) { MaxDistance = 2, Face = 0 };
-            var hit = RayHitFactory.Create(
-                target + (2 * Vector.K), -Vector.K, in search, 0, 9, mesh, in SimdAffineMap.Identity);
+            RayHitFactory.Create(
+                target + (2 * Vector.K), -Vector.K, in search, 0, 9, mesh, in SimdAffineMap.Identity, out var hit);
             double[] weights = [0.2, 0.3, 0.5];
             Near.Equal(new Vector(weights[i], weights[j], weights[k]), hit.Barycentrics, 1e-9);
             Near.Equal(2, hit.Distance, 1e-14);
