@@ -100,7 +100,7 @@ internal sealed class SceneWindow : IDisposable
 
     /// <summary>Whether the last frame was coarse, and nothing moves any more.</summary>
     private bool NeedsFullFrame =>
-        _windowRenderer.IsReducedQuality && Document?.IsMoving != true && _windowRenderer.TimeToFullFrame <= TimeSpan.Zero;
+        _windowRenderer.IsReducedQuality && Document?.IsMoving != true && _windowRenderer.TimeToFinerFrame <= TimeSpan.Zero;
 
     private bool NeedsRefresh =>
         _isVisible && _redraw != Redraw.None && _window is { Width: > 0, Height: > 0 } && Size != _refusedSize;
@@ -179,7 +179,7 @@ internal sealed class SceneWindow : IDisposable
             return TimeUntil(_lastAdvance + FrameTime);
         }
 
-        if (_windowRenderer is { IsReducedQuality: true, TimeToFullFrame: { Ticks: > 0 } left })
+        if (_windowRenderer is { IsReducedQuality: true, TimeToFinerFrame: { Ticks: > 0 } left })
         {
             return left;
         }

@@ -15,8 +15,9 @@ namespace FractalEngine.App.Window.Drawing;
 /// <summary>
 /// Draws the frames of a window. While the camera moves, frames are coarser and one view behind, so that the instances of the next frame
 /// are culled while one is drawn. When it stops, a full frame follows. Where full frames are slow, those that follow each other at once,
-/// as while the mouse turns the camera, are coarser, too. The first frame of a scene is a preview: one sample a pixel, coarse detail and
-/// no shadows, since full frames of large scenes take seconds without a GPU.
+/// as while the mouse turns the camera, are coarser, too. Where they are slower than a window may answer, all that follow the user's input
+/// are: first with larger pixels, then with as small ones as fit into that time, and the full one after a rest. The first frame of a scene
+/// is a preview: one sample a pixel, coarse detail and no shadows, since full frames of large scenes take seconds without a GPU.
 /// </summary>
 internal sealed class WindowRenderer(FrameRenderer frame)
 {
@@ -26,6 +27,9 @@ internal sealed class WindowRenderer(FrameRenderer frame)
 
     // Where a full frame takes longer, one that follows another one at once is coarser.
     private static readonly TimeSpan SlowFrameTime = TimeSpan.FromSeconds(0.05);
+
+    // A frame that takes longer never follows the user's input at once. The finer frame before it takes no longer than this.
+    private static readonly TimeSpan MaxAnswerTime = TimeSpan.FromSeconds(0.25);
 
     // A window does not answer while it draws a full frame, so a slow one waits longer until it is likely that nothing follows.
     private static readonly TimeSpan MinRestTime = TimeSpan.FromSeconds(0.15);
@@ -38,9 +42,11 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     private View? _shownView;
     private TimeSpan _gatherTime;
     private TimeSpan _fullFrameTime;
+    private TimeSpan _coarseFrameTime;
     private long _lastFrame;
     private long _lastInput;
     private bool _isBetweenOthers;
+    private bool _isRefined;
 
     /// <summary>The camera's view at the time of the last frame; null before the first frame of a document.</summary>
     public View? LatestView { get; private set; }
@@ -51,11 +57,13 @@ internal sealed class WindowRenderer(FrameRenderer frame)
     public bool IsReducedQuality { get; private set; }
 
     /// <summary>Whether a frame that is drawn now follows another one and the user's input so soon that a full one would be late.</summary>
-    public bool FollowsAtOnce => _shownView is not null && (!IsReducedQuality || _isBetweenOthers) && _fullFrameTime > SlowFrameTime
-        && Stopwatch.GetElapsedTime(Math.Min(_lastFrame, _lastInput)) < RestTime;
+    public bool FollowsAtOnce => _shownView is not null && _fullFrameTime > SlowFrameTime && (_fullFrameTime > MaxAnswerTime
+        ? Stopwatch.GetElapsedTime(_lastInput) < RestTime
+        : (!IsReducedQuality || _isBetweenOthers) && Stopwatch.GetElapsedTime(Math.Min(_lastFrame, _lastInput)) < RestTime);
 
-    /// <summary>How long the next full frame waits for another coarse one: the user may go on turning the camera.</summary>
-    public TimeSpan TimeToFullFrame => _isBetweenOthers ? RestTime - Stopwatch.GetElapsedTime(_lastFrame) : TimeSpan.Zero;
+    /// <summary>How long the next finer frame waits for another coarse one: the user may go on turning the camera.</summary>
+    public TimeSpan TimeToFinerFrame =>
+        _isBetweenOthers ? (_isRefined ? RestTime : MinRestTime) - Stopwatch.GetElapsedTime(_lastFrame) : TimeSpan.Zero;
 
     /// <summary>Whether another frame would sharpen the one that is shown, in time.</summary>
     /// <param name="settings">The render settings for a camera at rest.</param>
@@ -117,6 +125,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         _gatherTime = TimeSpan.Zero;
         var isMoving = document?.IsMoving == true;
         _isBetweenOthers = !isMoving && FollowsAtOnce;
+        _isRefined = _isBetweenOthers && Stopwatch.GetElapsedTime(_lastInput) >= MinRestTime;
         IsReducedQuality = isMoving || _isBetweenOthers;
         if (document is null)
         {
@@ -129,6 +138,7 @@ internal sealed class WindowRenderer(FrameRenderer frame)
         if (_shownView is null && document is { IsReload: false, File.Kind: FileKind.Scene })
         {
             IsReducedQuality = true;
+            _fullFrameTime = TimeSpan.Zero;
             _shownView = view;
             _nextView = view;
             var preview = _adaptiveQuality.Adapt(settings) with { Shadows = false };
@@ -157,16 +167,35 @@ internal sealed class WindowRenderer(FrameRenderer frame)
             _nextView = view;
         }
 
+        adapted = _isRefined ? Refine(adapted, settings.PixelSize) : adapted;
         frame.Draw(document.Renderer, _shownView, width, height, adapted, _nextView);
         return adapted;
+    }
+
+    /// <summary>Returns settings with pixels as small as a frame can have in time, if its time follows the number of its pixels.</summary>
+    private RenderSettings Refine(RenderSettings adapted, int smallest)
+    {
+        var size = adapted.PixelSize;
+        while (size > smallest && Math.Pow((double)adapted.PixelSize / (size - 1), 2) * _coarseFrameTime <= MaxAnswerTime)
+        {
+            size--;
+        }
+
+        return adapted with { PixelSize = size };
     }
 
     /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>
     public void RecordFrameTime(TimeSpan frameTime)
     {
         _lastFrame = Stopwatch.GetTimestamp();
+        if (_isRefined)
+        {
+            return;
+        }
+
         if (IsReducedQuality)
         {
+            _coarseFrameTime = frameTime;
             _adaptiveQuality.RecordFrameTime(frameTime);
         }
         else

@@ -108,10 +108,47 @@ public sealed class WindowRendererTests : IDisposable
         }
 
         Assert.Equal((0, true), (coarse.Samples, windowRenderer.IsReducedQuality));
-        Assert.True(windowRenderer.TimeToFullFrame < TimeSpan.FromSeconds(0.2));
+        Assert.True(windowRenderer.TimeToFinerFrame < TimeSpan.FromSeconds(0.2));
         windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(0.02));
         Thread.Sleep(TimeSpan.FromSeconds(0.2));
-        Assert.True(windowRenderer.TimeToFullFrame < TimeSpan.Zero);
+        Assert.True(windowRenderer.TimeToFinerFrame < TimeSpan.Zero);
+        Assert.Same(Settings, windowRenderer.Draw(document, Settings, Width, Height));
+        Assert.False(windowRenderer.IsReducedQuality);
+        Assert.Equal(full.Pixels, frame.Capture().Pixels);
+    }
+
+    [SkippableFact]
+    public void Draw_WhereFullFramesTakeSeconds_RefinesAfterAPause_BeforeAFullFrame()
+    {
+        using var window = Open();
+        using var frame = new FrameRenderer(window);
+        using var document = Load(window);
+        var windowRenderer = new WindowRenderer(frame);
+        windowRenderer.Draw(document, Settings, Width, Height);
+        windowRenderer.Draw(document, Settings, Width, Height);
+        var full = frame.Capture();
+        windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(2));
+        // However long ago the last frame was, input is not answered by another full one, nor when coarse ones fit the time.
+        Thread.Sleep(TimeSpan.FromSeconds(0.3));
+        var (coarse, refined) = (Settings, Settings);
+        for (var attempt = 0; refined.PixelSize >= coarse.PixelSize && attempt < 20; attempt++)
+        {
+            // Again where the machine was busy for longer than a user pauses. Times of slow frames enlarge the pixels.
+            windowRenderer.RecordInput();
+            coarse = windowRenderer.Draw(document, Settings, Width, Height);
+            windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(coarse.PixelSize == 1 ? 0.2 : 0.02));
+            if (coarse.PixelSize > 1)
+            {
+                Thread.Sleep(windowRenderer.TimeToFinerFrame + TimeSpan.FromSeconds(0.01));
+                refined = windowRenderer.Draw(document, Settings, Width, Height);
+                windowRenderer.RecordFrameTime(TimeSpan.FromSeconds(0.1));
+            }
+        }
+
+        Assert.True(coarse.PixelSize > refined.PixelSize);
+        Assert.Equal((1, true), (refined.PixelSize, windowRenderer.IsReducedQuality));
+        Thread.Sleep(TimeSpan.FromSeconds(0.65));
+        Assert.True(windowRenderer.TimeToFinerFrame < TimeSpan.Zero);
         Assert.Same(Settings, windowRenderer.Draw(document, Settings, Width, Height));
         Assert.False(windowRenderer.IsReducedQuality);
         Assert.Equal(full.Pixels, frame.Capture().Pixels);
