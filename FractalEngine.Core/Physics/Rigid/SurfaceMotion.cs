@@ -84,6 +84,11 @@ internal readonly struct SurfaceMotion
             ? new(Position + toAxis, Orientation, Scale, Travel - across, Turn, -toAxis) : this;
     }
 
+    /// <summary>The motion between the same ends on which another point goes straight on.</summary>
+    /// <param name="pivot">The point relative to the reference point.</param>
+    public SurfaceMotion About(Vector pivot) => new(
+        Position + pivot, Orientation, Scale, Travel + Orientation.Identity.TurnedBy(Turn).Rotate(pivot) - pivot, Turn, Arm - pivot);
+
     /// <summary>The same motion from a later time on.</summary>
     /// <param name="time">In units of the motion.</param>
     public SurfaceMotion From(double time)
