@@ -241,7 +241,7 @@ internal sealed class WorldStepper
 
             foreach (var index in BodiesNear(moved.SweptBounds))
             {
-                var beside = seconds * moved.MaxSpeedBeside(_bodies[index].Velocity);
+                var beside = seconds * Math.Min(moved.MaxSpeed, moved.MaxSpeedBeside(_bodies[index].Velocity));
                 parts = Math.Max(parts, Math.Ceiling(beside / (MaxKinematicTravel * _bodies[index].Radius)));
             }
         }

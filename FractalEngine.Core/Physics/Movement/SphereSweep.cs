@@ -57,19 +57,33 @@ internal sealed class SphereSweep(Obstacles obstacles)
         {
             var remaining = new SphereMotion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var timeLeft = maxTime - elapsed;
-            var maxTravel = remaining.MaxTravelDistance(timeLeft) + (obstacleSpeed * timeLeft);
             obstacles.Time = _startTime + elapsed;
+            var overstep = MaxOverstep * radius;
+            var maxTravel = remaining.MaxTravelDistance(timeLeft);
             var freeDistance = obstacles.FreeDistance(
-                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - (MaxOverstep * radius)));
-            if (maxTravel <= freeDistance)
+                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - overstep), hasKinematics: obstacleSpeed == 0);
+            var isFree = maxTravel <= freeDistance;
+            var safeTime = isFree ? timeLeft : remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + overstep);
+            if (obstacleSpeed > 0)
+            {
+                // Only what moves along with it stays as near: so the mover stands, and obstacles come as it sees them.
+                var beside = new SphereMotion(remaining.Start, Vector.Zero, motion.Acceleration);
+                var speed = obstacles.MaxKinematicSpeed(in remaining, timeLeft, isRelative: true);
+                var approach = beside.MaxTravelDistance(timeLeft) + (speed * timeLeft);
+                var distance = obstacles.KinematicDistance(remaining.Start, approach);
+                isFree &= approach <= distance;
+                safeTime = Math.Min(safeTime, beside.MinTimeToTravel(Math.Max(distance, 0) + overstep, speed));
+                maxTravel = Math.Max(maxTravel, approach);
+            }
+
+            if (isFree)
             {
                 elapsed = maxTime;
                 obstacles.Time = _startTime + elapsed;
                 return false;
             }
 
-            var duration = Math.Min(
-                timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius), obstacleSpeed));
+            var duration = Math.Min(timeLeft, safeTime);
             var isLast = duration >= timeLeft;
             var target = isLast ? motion.PositionAt(maxTime) : remaining.PositionAt(duration);
             obstacles.Time = _startTime + elapsed + duration;

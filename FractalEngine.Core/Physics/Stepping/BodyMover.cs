@@ -89,13 +89,29 @@ internal sealed class BodyMover
 
         var simultaneousImpacts = 0;
         var timeLeft = stepLength;
-        var maxImpacts = body.IsCompound ? MaxImpactsOfCompound : MaxImpacts;
-        for (var impact = 0; impact < maxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
+        var impacts = 0;
+        var advances = 0;
+        var elapsed = 0.0;
+        for (; advances < MaxImpacts && impacts < MaxImpactsOfCompound && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0;
+            advances++)
         {
             _obstacles.Time = stepLength - timeLeft;
-            var elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
+            elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
+            if (double.IsPositiveInfinity(elapsed))
+            {
+                break;
+            }
+
             timeLeft -= elapsed;
+            impacts += body.IsCompound && _compoundFlight.HasMet ? 1 : 0;
             simultaneousImpacts = elapsed > 0 ? 0 : simultaneousImpacts + 1;
+        }
+
+        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
+        if (timeLeft > 0 && body.IsCompound && (advances == MaxImpacts || _obstacles.MaxKinematicSpeed(in motion, timeLeft) > 0))
+        {
+            _obstacles.Time = stepLength - timeLeft;
+            _compoundFlight.Drift(body, timeLeft);
         }
     }
 

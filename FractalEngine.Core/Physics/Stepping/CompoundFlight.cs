@@ -20,10 +20,16 @@ internal sealed class CompoundFlight(
     // Relative to the speed that gravity gives: a plan that leaves no more is rest.
     private const double RestFraction = 1e-10;
 
+    // Pushes of a compound that is not turned any more: more of them are a corner that leaves no path.
+    private const int MaxPushes = 64;
+
     private const int InitialCapacity = 64;
 
     private readonly List<ContactRow> _rows = new(InitialCapacity);
     private readonly List<int> _members = new(InitialCapacity);
+
+    /// <summary>True where the last advance has ended at something that was touched.</summary>
+    public bool HasMet { get; private set; }
 
     /// <summary>Responds to what the compound touches, and moves it until it touches something new, or the time is up.</summary>
     /// <param name="body">Touches no other body that is awake. Obstacles must be set up for it.</param>
@@ -44,6 +50,35 @@ internal sealed class CompoundFlight(
 
         var spin = body.AngularVelocity.Length();
         return Follow(body, spin * timeLeft > MaxTurn ? MaxTurn / spin : timeLeft);
+    }
+
+    /// <summary>
+    /// Moves the compound on without turning it. What moves by itself pushes it, and it stops at everything else.
+    /// </summary>
+    /// <param name="body">Obstacles must be set up for it, at the present time.</param>
+    /// <param name="timeLeft">Seconds.</param>
+    public void Drift(Body body, double timeLeft)
+    {
+        for (var push = 0; push < MaxPushes && timeLeft > 0; push++)
+        {
+            var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
+            obstacles.SelectBall(body.Radius, body.SafeDistance);
+            obstacles.CollectNearbyBodies(in motion, timeLeft, body.Index);
+            var isHit = sweep.TryFindImpact(body, in motion, Vector.Zero, timeLeft, out var hit, out var ball, out var elapsed);
+            body.Position = motion.PositionAt(elapsed);
+            body.Velocity = motion.VelocityAt(elapsed);
+            timeLeft -= elapsed;
+            if (!isHit || hit.Kinematic is null)
+            {
+                break;
+            }
+
+            var centre = body.BallCentre(ball);
+            var normal = hit.Normal(centre);
+            body.Velocity += Math.Max(0, Vector.Dot(normal, hit.SurfaceVelocity(centre) - body.Velocity)) * normal;
+        }
+
+        contacts.UpdateAfterMove(body);
     }
 
     /// <summary>Takes away all approaches, by impulses that other bodies receive too.</summary>
@@ -131,6 +166,7 @@ internal sealed class CompoundFlight(
         var energy = body.KineticEnergy;
         var momentum = body.InertiaTensor * body.AngularVelocity;
         Contact? touched = null;
+        HasMet = false;
         var touchedBall = 0;
         for (var plan = 1; plan <= BodySweep.MaxPlans; plan++)
         {
@@ -178,6 +214,7 @@ internal sealed class CompoundFlight(
             if (touched is { } met)
             {
                 // What a shorter plan does not quite meet is as near as a contact.
+                HasMet = true;
                 body.Balls[touchedBall].Contacts.Add(in met, body.BallCentre(touchedBall));
             }
 
