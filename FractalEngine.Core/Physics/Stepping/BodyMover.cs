@@ -89,29 +89,15 @@ internal sealed class BodyMover
 
         var simultaneousImpacts = 0;
         var timeLeft = stepLength;
-        var impacts = 0;
-        var advances = 0;
-        var elapsed = 0.0;
-        for (; advances < MaxImpacts && impacts < MaxImpactsOfCompound && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0;
-            advances++)
+        var impactsLeft = body.IsCompound ? MaxImpactsOfCompound : MaxImpacts;
+        for (var advance = 0; advance < MaxImpacts && impactsLeft > 0 && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0;
+            advance++)
         {
             _obstacles.Time = stepLength - timeLeft;
-            elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
-            if (double.IsPositiveInfinity(elapsed))
-            {
-                break;
-            }
-
+            var elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
             timeLeft -= elapsed;
-            impacts += body.IsCompound && _compoundFlight.HasMet ? 1 : 0;
+            impactsLeft -= body.IsCompound && _compoundFlight.HasMet ? 1 : 0;
             simultaneousImpacts = elapsed > 0 ? 0 : simultaneousImpacts + 1;
-        }
-
-        var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
-        if (timeLeft > 0 && body.IsCompound && (advances == MaxImpacts || _obstacles.MaxKinematicSpeed(in motion, timeLeft) > 0))
-        {
-            _obstacles.Time = stepLength - timeLeft;
-            _compoundFlight.Drift(body, timeLeft);
         }
     }
 

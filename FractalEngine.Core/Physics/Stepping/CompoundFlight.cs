@@ -20,9 +20,6 @@ internal sealed class CompoundFlight(
     // Relative to the speed that gravity gives: a plan that leaves no more is rest.
     private const double RestFraction = 1e-10;
 
-    // Pushes of a compound that is not turned any more: more of them are a corner that leaves no path.
-    private const int MaxPushes = 64;
-
     private const int InitialCapacity = 64;
 
     private readonly List<ContactRow> _rows = new(InitialCapacity);
@@ -50,35 +47,6 @@ internal sealed class CompoundFlight(
 
         var spin = body.AngularVelocity.Length();
         return Follow(body, spin * timeLeft > MaxTurn ? MaxTurn / spin : timeLeft);
-    }
-
-    /// <summary>
-    /// Moves the compound on without turning it. What moves by itself pushes it, and it stops at everything else.
-    /// </summary>
-    /// <param name="body">Obstacles must be set up for it, at the present time.</param>
-    /// <param name="timeLeft">Seconds.</param>
-    public void Drift(Body body, double timeLeft)
-    {
-        for (var push = 0; push < MaxPushes && timeLeft > 0; push++)
-        {
-            var motion = new SphereMotion(body.Position, body.Velocity, body.FreeAcceleration);
-            obstacles.SelectBall(body.Radius, body.SafeDistance);
-            obstacles.CollectNearbyBodies(in motion, timeLeft, body.Index);
-            var isHit = sweep.TryFindImpact(body, in motion, Vector.Zero, timeLeft, out var hit, out var ball, out var elapsed);
-            body.Position = motion.PositionAt(elapsed);
-            body.Velocity = motion.VelocityAt(elapsed);
-            timeLeft -= elapsed;
-            if (!isHit || hit.Kinematic is null)
-            {
-                break;
-            }
-
-            var centre = body.BallCentre(ball);
-            var normal = hit.Normal(centre);
-            body.Velocity += Math.Max(0, Vector.Dot(normal, hit.SurfaceVelocity(centre) - body.Velocity)) * normal;
-        }
-
-        contacts.UpdateAfterMove(body);
     }
 
     /// <summary>Takes away all approaches, by impulses that other bodies receive too.</summary>
