@@ -247,14 +247,15 @@ internal sealed class WorldStepper
             foreach (var index in BodiesNear(moved.SweptBounds))
             {
                 var body = _bodies[index];
-                if (distance > MaxTravelOfParts * body.Radius && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
+                var beside = seconds * moved.MaxSpeedBeside(body.Velocity);
+                if (Math.Max(distance, beside) > MaxTravelOfParts * body.Radius
+                    && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
                 {
                     _isFast = true;
                     continue;
                 }
 
-                var beside = seconds * Math.Min(moved.MaxSpeed, moved.MaxSpeedBeside(body.Velocity));
-                parts = Math.Max(parts, Math.Ceiling(beside / (MaxKinematicTravel * body.Radius)));
+                parts = Math.Max(parts, Math.Ceiling(Math.Min(distance, beside) / (MaxKinematicTravel * body.Radius)));
             }
         }
 

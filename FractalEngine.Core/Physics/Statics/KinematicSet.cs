@@ -70,7 +70,7 @@ internal sealed class KinematicSet
     /// <param name="duration">Seconds that it takes.</param>
     /// <param name="reach">How far its surface is from its position.</param>
     /// <param name="isRelative">True for the speed as the mover sees it at the beginning.</param>
-    public double MaxSpeedNear(in SphereMotion motion, double duration, double reach, bool isRelative)
+    public double MaxSpeedNear(in SphereMotion motion, double duration, double reach, bool isRelative = false)
     {
         var maxSpeed = 0.0;
         if (IsFrozen)
