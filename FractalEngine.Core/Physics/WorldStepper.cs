@@ -34,7 +34,7 @@ internal sealed class WorldStepper
     private const int MaxParts = 64;
 
     // Relative to the radius: where an object goes farther in a step, bodies that are not single balls go through it with all others.
-    private const double MaxTravelOfParts = 100;
+    private const double MaxTravelOfParts = 400;
 
     // Room for so many bodies near a moving object; beyond it the list grows.
     private const int InitialNeighbourCapacity = 256;

@@ -27,6 +27,10 @@ internal sealed class SphereSweep(Obstacles obstacles)
     private const double GrazingSine = 1e-12;
 
     private const int MaxSteps = 100_000;
+
+    // After so many advances of a path by the sum of the speeds of mover and obstacles, what moves is looked at as the mover sees it.
+    private const int MaxSummedAdvances = 1_000;
+
     private const int MaxRefinements = 60;
     private const int MaxFalsePositions = 40;
 
@@ -53,26 +57,28 @@ internal sealed class SphereSweep(Obstacles obstacles)
         var radius = obstacles.Radius;
         _startTime = obstacles.Time;
         var obstacleSpeed = obstacles.MaxKinematicSpeed(in motion, maxTime);
-        for (; _stepsLeft > 0 && elapsed < maxTime; _stepsLeft--)
+        for (var advance = 0; _stepsLeft > 0 && elapsed < maxTime; advance++, _stepsLeft--)
         {
             var remaining = new SphereMotion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var timeLeft = maxTime - elapsed;
+            var isBeside = obstacleSpeed > 0 && advance >= MaxSummedAdvances;
+            var ownSpeed = isBeside ? 0 : obstacleSpeed;
+            var maxTravel = remaining.MaxTravelDistance(timeLeft) + (ownSpeed * timeLeft);
             obstacles.Time = _startTime + elapsed;
-            var overstep = MaxOverstep * radius;
-            var maxTravel = remaining.MaxTravelDistance(timeLeft);
             var freeDistance = obstacles.FreeDistance(
-                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - overstep), hasKinematics: obstacleSpeed == 0);
+                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - (MaxOverstep * radius)), !isBeside);
             var isFree = maxTravel <= freeDistance;
-            var safeTime = isFree ? timeLeft : remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + overstep);
-            if (obstacleSpeed > 0)
+            var duration = isFree ? timeLeft : Math.Min(
+                timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius), ownSpeed));
+            if (isBeside)
             {
-                // Only what moves along with it stays as near: so the mover stands, and obstacles come as it sees them.
-                var beside = new SphereMotion(remaining.Start, Vector.Zero, motion.Acceleration);
+                // What the mover goes along with comes no nearer: so that the mover stands, and obstacles move as it sees them.
+                var standing = remaining with { Velocity = Vector.Zero };
                 var speed = obstacles.MaxKinematicSpeed(in remaining, timeLeft, isRelative: true);
-                var approach = beside.MaxTravelDistance(timeLeft) + (speed * timeLeft);
-                var distance = obstacles.KinematicDistance(remaining.Start, approach);
-                isFree &= approach <= distance;
-                safeTime = Math.Min(safeTime, beside.MinTimeToTravel(Math.Max(distance, 0) + overstep, speed));
+                var approach = standing.MaxTravelDistance(timeLeft) + (speed * timeLeft);
+                var gap = obstacles.KinematicDistance(remaining.Start, approach);
+                isFree &= approach <= gap;
+                duration = Math.Min(duration, standing.MinTimeToTravel(Math.Max(gap, 0) + (MaxOverstep * radius), speed));
                 maxTravel = Math.Max(maxTravel, approach);
             }
 
@@ -83,7 +89,6 @@ internal sealed class SphereSweep(Obstacles obstacles)
                 return false;
             }
 
-            var duration = Math.Min(timeLeft, safeTime);
             var isLast = duration >= timeLeft;
             var target = isLast ? motion.PositionAt(maxTime) : remaining.PositionAt(duration);
             obstacles.Time = _startTime + elapsed + duration;

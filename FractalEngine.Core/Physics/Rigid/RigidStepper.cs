@@ -433,7 +433,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             states, CollectionsMarshal.AsSpan(_rows), substep, _guard, _isMoving && !isCarrying ? MaxAngle : double.PositiveInfinity);
         PlanMotions(time, made < substep ? made / _seconds : fraction);
         _sweep.StopBodies(_pairs, _surfaces);
-        var cut = canCut ? FirstPush(isCarrying, made) : 1;
+        var cut = canCut && _isMoving ? FirstPush(isCarrying, made) : 1;
         for (var i = 0; i < _surfaces.Count; i++)
         {
             if (cut < 1)
@@ -475,13 +475,14 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             first = pair.Push is not null ? Math.Min(first, pair.FirstImpact) : first;
         }
 
-        foreach (var pair in isCarrying && first < 1 ? _pairs.Pairs : [])
+        foreach (var pair in _pairs.Pairs)
         {
-            if (pair.FirstImpact <= first && pair.Push is { } push && !(push.Met.Body!.Description.IsRotationLocked && push.Carrier.Motion.Angle > 0))
+            if (isCarrying && first < 1 && pair.FirstImpact <= first && pair.Push is { } push
+                && (push.Carrier.Motion.Angle == 0 || !push.Met.Body!.Description.IsRotationLocked))
             {
                 push.Met.Carrier = push.Carrier;
                 push.Met.IsReachDue = true;
-                _states[push.Index].Velocity = push.Carrier.Motion.From(first).VelocityAt(push.Met.Body.Position) / seconds;
+                _states[push.Index].Velocity = push.Carrier.Motion.From(first).VelocityAt(push.Met.Body!.Position) / seconds;
             }
         }
 
