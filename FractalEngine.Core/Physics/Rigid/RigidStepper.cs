@@ -95,7 +95,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var count = _pairs.Pairs.Count == 0 && angle <= MaxAngle ? 1
             : (int)Math.Clamp(Math.Ceiling(angle / MaxAngle), MinSubsteps, MaxSubsteps);
         var cuts = 0;
-        var maxCuts = (2 * (count + bodies.Count)) + MaxCuts;
+        var maxCuts = count + MaxSubsteps + bodies.Count;
         for (var i = 0; i < count; i++)
         {
             // A substep ends early where an object that moves by itself meets a body, which it pushes from then on.
@@ -477,8 +477,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
 
         foreach (var pair in _pairs.Pairs)
         {
-            if (isCarrying && first < 1 && pair.FirstImpact <= first && pair.Push is { } push
-                && (push.Carrier.Motion.Angle == 0 || !push.Met.Body!.Description.IsRotationLocked))
+            if (isCarrying && first < 1 && pair.FirstImpact <= first && pair.Push is { } push)
             {
                 push.Met.Carrier = push.Carrier;
                 push.Met.IsReachDue = true;
@@ -506,7 +505,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             {
                 surface.SetCarriedMotion(carrier.PartMotion.Slice(time, fraction));
                 state.Velocity = surface.Motion.From(1).VelocityAt(surface.Motion.From(1).Origin) / (fraction * _seconds);
-                state.Spin = surface.Motion.Turn / (fraction * _seconds);
+                state.Spin = state.LocalInverseInertia == default ? Vector.Zero : surface.Motion.Turn / (fraction * _seconds);
                 state.Travel = state.TravelBefore + surface.Motion.From(1).Origin - surface.Motion.Origin;
                 state.Turn = state.TurnBefore.TurnedBy(surface.Motion.Turn);
                 continue;
