@@ -33,8 +33,8 @@ internal sealed class WorldStepper
     // Parts of a step at most: what is so fast still passes no body that is free.
     private const int MaxParts = 64;
 
-    // Relative to the radius: where an object goes farther in a step, bodies that are not single balls go through it with all others.
-    private const double MaxTravelOfParts = 400;
+    // Relative to the radius: where an object goes farther in a step, balls that are not alone take it as bodies of any shape do.
+    private const double MaxTravelOfBalls = 400;
 
     // Room for so many bodies near a moving object; beyond it the list grows.
     private const int InitialNeighbourCapacity = 256;
@@ -248,8 +248,8 @@ internal sealed class WorldStepper
             {
                 var body = _bodies[index];
                 var beside = seconds * moved.MaxSpeedBeside(body.Velocity);
-                if (Math.Max(distance, beside) > MaxTravelOfParts * body.Radius
-                    && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
+                var maxTravel = (body.IsCompound ? MaxParts * MaxKinematicTravel : MaxTravelOfBalls) * body.Radius;
+                if (Math.Max(distance, beside) > maxTravel && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
                 {
                     _isFast = true;
                     continue;

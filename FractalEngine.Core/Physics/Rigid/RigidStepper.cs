@@ -22,8 +22,11 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     private const int MinSubsteps = 8;
     private const int MaxSubsteps = 1024;
 
-    // So often does a step begin a substep anew; then what moves by itself carries all that it meets.
+    // So often are substeps cut short so that nothing turns too far in them.
     private const int MaxCuts = 64;
+
+    // So often does what moves by itself push a body in a step; then it carries it.
+    private const int MaxPushes = 16;
 
     // What makes a smaller part of its way counts as held, and after so many substeps it is slowed down.
     private const double MinFraction = 0.01;
@@ -76,6 +79,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         for (var i = 0; i < _surfaces.Count; i++)
         {
             _surfaces[i].Carrier = null;
+            _surfaces[i].PushCount = 0;
             if (_surfaces[i].Body is not { } body)
             {
                 _states[i] = CreateState(_surfaces[i]);
@@ -95,7 +99,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var count = _pairs.Pairs.Count == 0 && angle <= MaxAngle ? 1
             : (int)Math.Clamp(Math.Ceiling(angle / MaxAngle), MinSubsteps, MaxSubsteps);
         var cuts = 0;
-        var maxCuts = count + MaxSubsteps + bodies.Count;
+        var maxCuts = count + MaxSubsteps + (MaxPushes * bodies.Count);
         for (var i = 0; i < count; i++)
         {
             // A substep ends early where an object that moves by itself meets a body, which it pushes from then on.
@@ -107,7 +111,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
                     FindContacts(time);
                 }
 
-                var cut = MoveSubstep(time, (1 - made) / count, isCarrying: cuts >= count + MaxCuts, canCut: cuts < maxCuts);
+                var cut = MoveSubstep(time, (1 - made) / count, canTurn: cuts >= count + MaxCuts, canCut: cuts < maxCuts);
                 cuts++;
                 made = cut < 1 ? made + (cut * (1 - made)) : 1;
             }
@@ -417,10 +421,10 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     /// <summary>Moves everything on until it touches.</summary>
     /// <param name="time">Now, as a fraction of the step.</param>
     /// <param name="fraction">Length of the substep, relative to the step.</param>
-    /// <param name="isCarrying">True to let objects that move by themselves carry what they meet.</param>
-    /// <param name="canCut">False to let them go on, whatever they meet.</param>
+    /// <param name="canTurn">True to let bodies turn as far as they do.</param>
+    /// <param name="canCut">False to let objects that move by themselves go on, whatever they meet.</param>
     /// <returns>The part of the substep that has been made.</returns>
-    private double MoveSubstep(double time, double fraction, bool isCarrying, bool canCut)
+    private double MoveSubstep(double time, double fraction, bool canTurn, bool canCut)
     {
         var states = _states.AsSpan(0, _surfaces.Count);
         foreach (ref var state in states)
@@ -430,10 +434,10 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
 
         var substep = fraction * _seconds;
         var made = RigidSolver.Solve(
-            states, CollectionsMarshal.AsSpan(_rows), substep, _guard, _isMoving && !isCarrying ? MaxAngle : double.PositiveInfinity);
+            states, CollectionsMarshal.AsSpan(_rows), substep, _guard, _isMoving && !canTurn ? MaxAngle : double.PositiveInfinity);
         PlanMotions(time, made < substep ? made / _seconds : fraction);
         _sweep.StopBodies(_pairs, _surfaces);
-        var cut = canCut && _isMoving ? FirstPush(isCarrying, made) : 1;
+        var cut = canCut && _isMoving ? FirstPush(made) : 1;
         for (var i = 0; i < _surfaces.Count; i++)
         {
             if (cut < 1)
@@ -459,10 +463,11 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         return cut * (made / substep);
     }
 
-    /// <summary>The part of the substep after which the first object that moves by itself meets a body; 1 where none does.</summary>
-    /// <param name="isCarrying">True to let it carry that body from then on.</param>
-    /// <param name="seconds">Length of the substep.</param>
-    private double FirstPush(bool isCarrying, double seconds)
+    /// <summary>
+    /// The part of the substep after which the first object that moves by itself meets a body; 1 where none does. What it has met too
+    /// often it carries from then on.
+    /// </summary>
+    private double FirstPush(double seconds)
     {
         var first = 1.0;
         foreach (var surface in _surfaces)
@@ -477,7 +482,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
 
         foreach (var pair in _pairs.Pairs)
         {
-            if (isCarrying && first < 1 && pair.FirstImpact <= first && pair.Push is { } push)
+            if (first < 1 && pair.FirstImpact <= first && pair.Push is { } push && push.Met.PushCount++ >= MaxPushes)
             {
                 push.Met.Carrier = push.Carrier;
                 push.Met.IsReachDue = true;

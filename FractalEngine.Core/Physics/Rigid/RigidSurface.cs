@@ -58,6 +58,9 @@ internal sealed class RigidSurface
     /// <summary>What moves by itself and carries it along, whatever else acts; null for none. Such an object carries itself.</summary>
     public RigidSurface? Carrier { get; set; }
 
+    /// <summary>How often what moves by itself, or is carried by that, has met it in the part of the step.</summary>
+    public int PushCount { get; set; }
+
     /// <summary>Where it is and how it moves in the present substep, which takes a unit of time.</summary>
     public SurfaceMotion Motion { get; set; }
 
