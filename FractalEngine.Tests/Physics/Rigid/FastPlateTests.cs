@@ -32,12 +32,12 @@ public class FastPlateTests
         [RigidMeshes.Box(1, 1, 1), RigidMeshes.Box(1, 0.1, 0.5), Shapes.Tetrahedron(), RigidMeshes.CreateL(0.5), Shapes.Square(1)];
 
     [Theory]
-    [InlineData(3e3, 0)]
     [InlineData(3e4, 0)]
     [InlineData(1e6, 0)]
     [InlineData(1e6, 1e3)]
     public void Plates_PassNoMesh(double speed, double turns) => CheckPlates(
-        6, speed, turns, static (random, body) => [new(Vector.Zero, new MeshShape(Model.Of(Meshes[body % Meshes.Length]), random.Orthogonal()))]);
+        6, speed, turns,
+        static (random, body) => [new(Vector.Zero, new MeshShape(Model.Of(Meshes[body % Meshes.Length]), random.Orthogonal()))]);
 
     [Theory]
     [InlineData(1e6, 0)]
@@ -56,8 +56,8 @@ public class FastPlateTests
     {
         for (var i = 0; i < 3; i++)
         {
-            var plate = new SceneObject(Shapes.Square(1000)) { Motion = new() { Spin = new(0, 0, -2500) } };
-            var world = new PhysicsWorld(new LoadedScene(new() { Gravity = Vector.Zero }, [new(plate)]), new PhysicsSettings { TimeStep = 1e-3 });
+            var plate = new SceneObject(Shapes.Square(1000)) { Motion = new() { Spin = new(0, 0, -12_500) } };
+            var world = TestWorlds.Create(Vector.Zero, 1e-3, new PlacedModel(plate));
             var body = world.Add(new BodyDescription(new(100, 3, 0), new MeshShape(Model.Of(Meshes[i]), random.Orthogonal())));
             world.Run(2, () => Assert.True(HeightAbove(world, body) > -Tolerance, $"mesh {i}: at {HeightAbove(world, body):R}"));
             Assert.True(body.Velocity.Y > 1000, $"mesh {i}: {body.Velocity}");
@@ -79,9 +79,9 @@ public class FastPlateTests
         {
             for (var i = 0; i < count; i++)
             {
-                var plate = new SceneObject(Plates[i % Plates.Length]) { Motion = new() { Velocity = new(0.3 * speed * (i % 2), speed, 0) } };
-                var world = new PhysicsWorld(
-                    new LoadedScene(new() { Gravity = TestWorlds.Gravity }, [new(plate)]), new PhysicsSettings { MaxThreads = 1 });
+                var velocity = new Vector(0.3 * speed * (i % 2), speed, 0);
+                var plate = new SceneObject(Plates[i % Plates.Length]) { Motion = new() { Velocity = velocity } };
+                var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, new PlacedModel(plate));
                 foreach (var description in create(random, i))
                 {
                     world.Add(description with
@@ -98,8 +98,8 @@ public class FastPlateTests
                     foreach (var body in world.Bodies)
                     {
                         var height = HeightAbove(world, body);
-                        Assert.True(height > -Tolerance, $"world {i}, {speed:R} and {turns:R} turns: {height:R} after {world.StepCount} steps");
-                        Assert.True(body.Velocity.Y > 0.9 * speed, $"world {i}, {speed:R} and {turns:R} turns: {body.Velocity}");
+                        var state = $"world {i}, {speed:R} and {turns:R} turns: {height:R}, {body.Velocity} after {world.StepCount} steps";
+                        Assert.True(height > -Tolerance && body.Velocity.Y > 0.9 * speed, state);
                     }
                 });
             }
