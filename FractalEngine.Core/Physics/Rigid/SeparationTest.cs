@@ -40,7 +40,7 @@ internal readonly ref struct SeparationTest
         _first = ref first;
         _second = ref second;
         _curvature = Curvature(in first, centre1, radius1) + Curvature(in second, centre2, radius2);
-        if (second.Angle > 0)
+        if (second.Angle > 0 && radius2 > MinGain * radius1)
         {
             var relative = (first.Travel - second.Travel).Length() + (first.Angle * ((centre1 - first.Position).Length() + radius1));
             var arm = (centre1 - second.Position).Length() + radius1 + relative;
