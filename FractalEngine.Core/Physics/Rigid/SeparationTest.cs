@@ -252,8 +252,11 @@ internal readonly ref struct SeparationTest
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private Vector VelocityAt(Vector point, int sign) =>
-        !_isRelative ? sign > 0 ? _first.VelocityAt(point) : _second.VelocityAt(point)
-        : sign > 0 ? _first.VelocityAt(point) - _second.VelocityAt(point) : Vector.Zero;
+        _isRelative ? RelativeVelocityAt(point, sign) : (sign > 0 ? ref _first : ref _second).VelocityAt(point);
+
+    [MethodImpl(MethodImplOptions.NoInlining)]
+    private Vector RelativeVelocityAt(Vector point, int sign) =>
+        sign > 0 ? _first.VelocityAt(point) - _second.VelocityAt(point) : Vector.Zero;
 
     private static Vector Edge(in SurfaceTriangle triangle, int index) => index == 0 ? triangle.Corners.B - triangle.Corners.A
         : index == 1 ? triangle.Corners.C - triangle.Corners.B
