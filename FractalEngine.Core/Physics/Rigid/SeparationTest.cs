@@ -1,3 +1,4 @@
+using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
@@ -22,10 +23,11 @@ internal readonly ref struct SeparationTest
     // So many times smaller must the bound of the motion be in the frame of the second surface.
     private const double MinGain = 4;
 
+    private static readonly SurfaceMotion AtRest = new(default, Orientation.Identity, 1, default, default);
+
     private readonly ref readonly SurfaceMotion _first;
     private readonly ref readonly SurfaceMotion _second;
     private readonly double _curvature;
-    private readonly bool _isRelative;
 
     /// <summary>Prepares the test of two parts.</summary>
     /// <param name="first">Motion of the first surface, from now on.</param>
@@ -34,19 +36,29 @@ internal readonly ref struct SeparationTest
     /// <param name="radius1">Radius about it.</param>
     /// <param name="centre2">Middle of the second part now.</param>
     /// <param name="radius2">Radius about it.</param>
+    /// <param name="relative">Receives the motion of the first surface as seen from the second one, if that is looked at.</param>
     public SeparationTest(
-        in SurfaceMotion first, in SurfaceMotion second, Vector centre1, double radius1, Vector centre2, double radius2)
+        in SurfaceMotion first, in SurfaceMotion second, Vector centre1, double radius1, Vector centre2, double radius2,
+        [UnscopedRef] out SurfaceMotion relative)
     {
+        Unsafe.SkipInit(out relative);
         _first = ref first;
         _second = ref second;
         _curvature = Curvature(in first, centre1, radius1) + Curvature(in second, centre2, radius2);
-        if (second.Angle > 0 && radius2 > MinGain * radius1)
+        if (!(second.Angle > 0) || radius2 <= MinGain * radius1)
         {
-            var relative = (first.Travel - second.Travel).Length() + (first.Angle * ((centre1 - first.Position).Length() + radius1));
-            var arm = (centre1 - second.Position).Length() + radius1 + relative;
-            var curvature = Curvature(in first, centre1, radius1) + (second.Angle * (relative + (0.5 * second.Angle * arm)));
-            _isRelative = MinGain * curvature < _curvature;
-            _curvature = _isRelative ? curvature : _curvature;
+            return;
+        }
+
+        var way = (first.Travel - second.Travel).Length() + (first.Angle * ((centre1 - first.Position).Length() + radius1));
+        var arm = (centre1 - second.Position).Length() + radius1 + way;
+        var curvature = Curvature(in first, centre1, radius1) + (second.Angle * (way + (0.5 * second.Angle * arm)));
+        if (MinGain * curvature < _curvature)
+        {
+            relative = first.SeenFrom(in second);
+            _first = ref relative;
+            _second = ref AtRest;
+            _curvature = curvature;
         }
     }
 
@@ -118,7 +130,7 @@ internal readonly ref struct SeparationTest
     /// <param name="second">The second part's box, now.</param>
     /// <param name="distance">The distance, scene units.</param>
     public double SafeTime(Vector axis, in SurfaceBox first, in SurfaceBox second, double distance) =>
-        SafeTime(ReachOf(in first, axis, 1), ReachOf(in second, axis, -1), distance);
+        SafeTime(ReachOf(in first, axis, in _first, 1), ReachOf(in second, axis, in _second, -1), distance);
 
     /// <summary>Finds for how long a triangle of one surface surely stays farther from a box of the other than a distance.</summary>
     /// <param name="triangle">Of one surface, now.</param>
@@ -134,8 +146,8 @@ internal readonly ref struct SeparationTest
             var axis = i == 3 ? triangle.Normal : Column(box.Normals, i);
             axis = Vector.Dot(axis, triangle.Centre - box.Centre) < 0 == isFirst ? -axis : axis;
             time = axis == Vector.Zero ? time : Math.Max(time, isFirst
-                ? SafeTime(ReachOf(in triangle, axis, 1), ReachOf(in box, axis, -1), distance)
-                : SafeTime(ReachOf(in box, axis, 1), ReachOf(in triangle, axis, -1), distance));
+                ? SafeTime(ReachOf(in triangle, axis, in _first, 1), ReachOf(in box, axis, in _second, -1), distance)
+                : SafeTime(ReachOf(in box, axis, in _first, 1), ReachOf(in triangle, axis, in _second, -1), distance));
         }
 
         return time;
@@ -186,7 +198,7 @@ internal readonly ref struct SeparationTest
     /// <param name="second">Of the second surface, now.</param>
     /// <param name="distance">The distance, scene units.</param>
     public double SafeTime(Vector axis, in SurfaceTriangle first, in SurfaceTriangle second, double distance) =>
-        SafeTime(ReachOf(in first, axis, 1), ReachOf(in second, axis, -1), distance);
+        SafeTime(ReachOf(in first, axis, in _first, 1), ReachOf(in second, axis, in _second, -1), distance);
 
     private static double Curvature(in SurfaceMotion motion, Vector centre, double radius) =>
         motion.Angle > 0 ? 0.5 * motion.Angle * motion.Angle * ((centre - motion.Position).Length() + radius) : 0;
@@ -195,8 +207,8 @@ internal readonly ref struct SeparationTest
         Vector axis, in SurfaceBox first, in SurfaceBox second, double distance, double enough, ref double time)
     {
         axis = Vector.Dot(axis, first.Centre - second.Centre) < 0 ? -axis : axis;
-        var reach1 = ReachOf(in first, axis, 1);
-        var reach2 = ReachOf(in second, axis, -1);
+        var reach1 = ReachOf(in first, axis, in _first, 1);
+        var reach2 = ReachOf(in second, axis, in _second, -1);
         var gap = reach1.A.Height + reach2.A.Height;
         time = Math.Max(time, gap > distance ? SafeTime(gap - distance, reach1.A.Speed + reach2.A.Speed) : 0);
         return time >= enough;
@@ -231,32 +243,23 @@ internal readonly ref struct SeparationTest
         : speed < 0 ? room / -speed
         : double.PositiveInfinity;
 
-    /// <summary>How far the points of a box reach down along an axis, and how fast they do at least; of the second one, up.</summary>
-    private Reach ReachOf(in SurfaceBox box, Vector axis, int sign)
+    /// <summary>How far the points of a box reach down along an axis, times a sign, and how fast they do at least.</summary>
+    private static Reach ReachOf(in SurfaceBox box, Vector axis, in SurfaceMotion motion, int sign)
     {
         var height = (sign * Vector.Dot(axis, box.Centre)) - box.Extent(axis);
-        var speed = sign * Vector.Dot(axis, VelocityAt(box.Centre, sign));
-        var turn = _isRelative ? sign > 0 ? _first.Turn - _second.Turn : Vector.Zero : sign > 0 ? _first.Turn : _second.Turn;
-        return new((height, turn != Vector.Zero ? speed - box.Spread(Vector.Cross(axis, turn)) : speed));
+        var speed = sign * Vector.Dot(axis, motion.VelocityAt(box.Centre));
+        return new((height, motion.Angle > 0 ? speed - box.Spread(Vector.Cross(axis, motion.Turn)) : speed));
     }
 
-    /// <summary>How far the corners of a triangle reach down along an axis, and how fast they do; of the second one, up.</summary>
-    private Reach ReachOf(in SurfaceTriangle triangle, Vector axis, int sign)
+    /// <summary>How far the corners of a triangle reach down along an axis, times a sign, and how fast they do.</summary>
+    private static Reach ReachOf(in SurfaceTriangle triangle, Vector axis, in SurfaceMotion motion, int sign)
     {
         var (a, b, c) = triangle.Corners;
         return new(
-            ((sign * Vector.Dot(axis, a)) - triangle.Rounding, sign * Vector.Dot(axis, VelocityAt(a, sign))),
-            ((sign * Vector.Dot(axis, b)) - triangle.Rounding, sign * Vector.Dot(axis, VelocityAt(b, sign))),
-            ((sign * Vector.Dot(axis, c)) - triangle.Rounding, sign * Vector.Dot(axis, VelocityAt(c, sign))));
+            ((sign * Vector.Dot(axis, a)) - triangle.Rounding, sign * Vector.Dot(axis, motion.VelocityAt(a))),
+            ((sign * Vector.Dot(axis, b)) - triangle.Rounding, sign * Vector.Dot(axis, motion.VelocityAt(b))),
+            ((sign * Vector.Dot(axis, c)) - triangle.Rounding, sign * Vector.Dot(axis, motion.VelocityAt(c))));
     }
-
-    [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    private Vector VelocityAt(Vector point, int sign) =>
-        _isRelative ? RelativeVelocityAt(point, sign) : (sign > 0 ? ref _first : ref _second).VelocityAt(point);
-
-    [MethodImpl(MethodImplOptions.NoInlining)]
-    private Vector RelativeVelocityAt(Vector point, int sign) =>
-        sign > 0 ? _first.VelocityAt(point) - _second.VelocityAt(point) : Vector.Zero;
 
     private static Vector Edge(in SurfaceTriangle triangle, int index) => index == 0 ? triangle.Corners.B - triangle.Corners.A
         : index == 1 ? triangle.Corners.C - triangle.Corners.B

@@ -114,6 +114,10 @@ internal readonly struct SurfaceMotion
     /// <summary>The same motion with coordinates relative to a point.</summary>
     public SurfaceMotion RelativeTo(Vector origin) => new(Position - origin, Orientation, Scale, Travel, Turn, Arm);
 
+    /// <summary>The motion at the beginning as it is seen from another surface.</summary>
+    public SurfaceMotion SeenFrom(in SurfaceMotion other) =>
+        new(Position, Orientation, Scale, Travel - other.VelocityAt(Position), Turn - other.Turn, Arm);
+
     /// <summary>The motion of what stays where it is.</summary>
     public SurfaceMotion Stopped => new(Position, Orientation, Scale, Vector.Zero, Vector.Zero, Arm);
 
