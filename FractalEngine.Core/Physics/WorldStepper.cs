@@ -33,6 +33,9 @@ internal sealed class WorldStepper
     // Parts of a step at most: what is so fast still passes no body that is free.
     private const int MaxParts = 64;
 
+    // Relative to the radius: where an object goes farther in a step, balls that are not alone take it as bodies of any shape do.
+    private const double MaxTravelOfBalls = 400;
+
     // Room for so many bodies near a moving object; beyond it the list grows.
     private const int InitialNeighbourCapacity = 256;
 
@@ -63,6 +66,7 @@ internal sealed class WorldStepper
     private CharacterController? _character;
     private Vector _gravity;
     private double _seconds;
+    private bool _isFast;
     private bool _isFirstPart;
     private int _awakeCount;
     private bool _isAtRest;
@@ -226,6 +230,7 @@ internal sealed class WorldStepper
     private int CountParts(double seconds)
     {
         var parts = 1.0;
+        _isFast = false;
         foreach (var moved in _kinematics.Objects)
         {
             var distance = moved.MaxSpeed * seconds;
@@ -241,8 +246,16 @@ internal sealed class WorldStepper
 
             foreach (var index in BodiesNear(moved.SweptBounds))
             {
-                var beside = seconds * moved.MaxSpeedBeside(_bodies[index].Velocity);
-                parts = Math.Max(parts, Math.Ceiling(beside / (MaxKinematicTravel * _bodies[index].Radius)));
+                var body = _bodies[index];
+                var beside = seconds * moved.MaxSpeedBeside(body.Velocity);
+                var maxTravel = (body.IsCompound ? MaxParts * MaxKinematicTravel : MaxTravelOfBalls) * body.Radius;
+                if (Math.Max(distance, beside) > maxTravel && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
+                {
+                    _isFast = true;
+                    continue;
+                }
+
+                parts = Math.Max(parts, Math.Ceiling(Math.Min(distance, beside) / (MaxKinematicTravel * body.Radius)));
             }
         }
 
@@ -283,7 +296,7 @@ internal sealed class WorldStepper
 
     private void MoveBodies()
     {
-        if (_rigid.IsNeeded)
+        if (_rigid.IsNeeded || _isFast)
         {
             BodySurfaces.Follow();
             _rigid.StepPart(_gravity, _seconds, _character);

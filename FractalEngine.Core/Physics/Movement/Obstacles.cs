@@ -125,7 +125,8 @@ internal sealed class Obstacles(
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="maxDistance">Largest free distance of interest; nothing beyond is searched for.</param>
     /// <param name="sufficientDistance">A bound that is known already will do if it is at least this.</param>
-    public double FreeDistance(Vector position, double maxDistance, double sufficientDistance)
+    /// <param name="hasKinematics">False to leave out what moves by itself.</param>
+    public double FreeDistance(Vector position, double maxDistance, double sufficientDistance, bool hasKinematics = true)
     {
         var known = _safeDistance.LowerBoundAt(position) - _radius;
         if (known >= sufficientDistance || _safeDistance.IsKnownNear(position, NegligibleDistance * _radius))
@@ -133,18 +134,23 @@ internal sealed class Obstacles(
             var toBodies = Math.Min(known, maxDistance);
             var distance = Math.Min(
                 maxDistance, TryFindClosestBody(position, ref toBodies, out var body) ? body.Gap(position) : toBodies);
-            return TryFindNearKinematic(position, distance, out var kinematic) ? kinematic.Gap(position) : distance;
+            return hasKinematics ? KinematicDistance(position, distance) : distance;
         }
 
-        return TryFindClosestContact(position, maxDistance, out var closestContact) ? closestContact.Gap(position) : maxDistance;
+        return TryFindClosestContact(position, maxDistance, out var closest, hasKinematics) ? closest.Gap(position) : maxDistance;
     }
+
+    /// <summary>Free distance from what moves by itself, at most a maximum.</summary>
+    public double KinematicDistance(Vector position, double maxDistance) =>
+        TryFindNearKinematic(position, maxDistance, out var kinematic) ? kinematic.Gap(position) : maxDistance;
 
     /// <summary>Finds the closest obstacle, or the one that is overlapped most.</summary>
     /// <param name="position">Position of the mover, world space.</param>
     /// <param name="maxDistance">Largest free distance of interest.</param>
     /// <param name="closestContact">The obstacle, if there is one.</param>
+    /// <param name="hasKinematics">False to leave out what moves by itself.</param>
     /// <returns>False where no obstacle is within the distance.</returns>
-    public bool TryFindClosestContact(Vector position, double maxDistance, out Contact closestContact)
+    public bool TryFindClosestContact(Vector position, double maxDistance, out Contact closestContact, bool hasKinematics = true)
     {
         var isFound = TryFindClosestBody(position, ref maxDistance, out closestContact);
         // A body that is overlapped by more than the radius hides all surfaces.
@@ -161,7 +167,7 @@ internal sealed class Obstacles(
             isFound = true;
         }
 
-        if (TryFindNearKinematic(position, maxDistance, out var kinematic))
+        if (hasKinematics && TryFindNearKinematic(position, maxDistance, out var kinematic))
         {
             closestContact = kinematic;
             isFound = true;
@@ -259,7 +265,8 @@ internal sealed class Obstacles(
     /// <summary>Largest speed of the kinematic objects that the mover may meet; 0 where there are none.</summary>
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
-    public double MaxKinematicSpeed(in SphereMotion motion, double duration)
+    /// <param name="isRelative">True for the speed as the mover sees it at the beginning.</param>
+    public double MaxKinematicSpeed(in SphereMotion motion, double duration, bool isRelative = false)
     {
         if (!HasKinematics || _staticColliders is null)
         {
@@ -272,7 +279,7 @@ internal sealed class Obstacles(
             reach = Math.Max(reach, sphere.Length());
         }
 
-        return kinematics.MaxSpeedNear(in motion, duration, (_radius * ContactTolerances.NeighbourRadiusFactor) + reach);
+        return kinematics.MaxSpeedNear(in motion, duration, (_radius * ContactTolerances.NeighbourRadiusFactor) + reach, isRelative);
     }
 
     /// <summary>Finds the closest kinematic object.</summary>

@@ -27,6 +27,10 @@ internal sealed class SphereSweep(Obstacles obstacles)
     private const double GrazingSine = 1e-12;
 
     private const int MaxSteps = 100_000;
+
+    // After so many advances of a path by the sum of the speeds of mover and obstacles, what moves is looked at as the mover sees it.
+    private const int MaxSummedAdvances = 1_000;
+
     private const int MaxRefinements = 60;
     private const int MaxFalsePositions = 40;
 
@@ -53,23 +57,38 @@ internal sealed class SphereSweep(Obstacles obstacles)
         var radius = obstacles.Radius;
         _startTime = obstacles.Time;
         var obstacleSpeed = obstacles.MaxKinematicSpeed(in motion, maxTime);
-        for (; _stepsLeft > 0 && elapsed < maxTime; _stepsLeft--)
+        for (var advance = 0; _stepsLeft > 0 && elapsed < maxTime; advance++, _stepsLeft--)
         {
             var remaining = new SphereMotion(motion.PositionAt(elapsed), motion.VelocityAt(elapsed), motion.Acceleration);
             var timeLeft = maxTime - elapsed;
-            var maxTravel = remaining.MaxTravelDistance(timeLeft) + (obstacleSpeed * timeLeft);
+            var isBeside = obstacleSpeed > 0 && advance >= MaxSummedAdvances;
+            var ownSpeed = isBeside ? 0 : obstacleSpeed;
+            var maxTravel = remaining.MaxTravelDistance(timeLeft) + (ownSpeed * timeLeft);
             obstacles.Time = _startTime + elapsed;
             var freeDistance = obstacles.FreeDistance(
-                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - (MaxOverstep * radius)));
-            if (maxTravel <= freeDistance)
+                remaining.Start, maxTravel, Math.Max(0, (SufficientPart * maxTravel) - (MaxOverstep * radius)), !isBeside);
+            var isFree = maxTravel <= freeDistance;
+            var duration = isFree ? timeLeft : Math.Min(
+                timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius), ownSpeed));
+            if (isBeside)
+            {
+                // What the mover goes along with comes no nearer: so that the mover stands, and obstacles move as it sees them.
+                var standing = remaining with { Velocity = Vector.Zero };
+                var speed = obstacles.MaxKinematicSpeed(in remaining, timeLeft, isRelative: true);
+                var approach = standing.MaxTravelDistance(timeLeft) + (speed * timeLeft);
+                var gap = obstacles.KinematicDistance(remaining.Start, approach);
+                isFree &= approach <= gap;
+                duration = Math.Min(duration, standing.MinTimeToTravel(Math.Max(gap, 0) + (MaxOverstep * radius), speed));
+                maxTravel = Math.Max(maxTravel, approach);
+            }
+
+            if (isFree)
             {
                 elapsed = maxTime;
                 obstacles.Time = _startTime + elapsed;
                 return false;
             }
 
-            var duration = Math.Min(
-                timeLeft, remaining.MinTimeToTravel(Math.Max(freeDistance, 0) + (MaxOverstep * radius), obstacleSpeed));
             var isLast = duration >= timeLeft;
             var target = isLast ? motion.PositionAt(maxTime) : remaining.PositionAt(duration);
             obstacles.Time = _startTime + elapsed + duration;

@@ -98,7 +98,8 @@ internal sealed class ContactSearch : PairSearch
     /// <summary>True for parts that come so near in the rest of the step that contacts are looked for in them.</summary>
     private bool IsApproaching(in Pair pair)
     {
-        var test = new SeparationTest(in Motion1, in Motion2, pair.Box1.Centre, pair.Box1.Radius, pair.Box2.Centre, pair.Box2.Radius);
+        var test = new SeparationTest(
+            in Motion1, in Motion2, pair.Box1.Centre, pair.Box1.Radius, pair.Box2.Centre, pair.Box2.Radius, out var relative);
         return !(pair.Gap > 0 && test.SafeTime(pair.Axis, in pair.Box1, in pair.Box2, ApproachDistance * _distance) >= 1);
     }
 

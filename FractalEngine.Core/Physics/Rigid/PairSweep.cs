@@ -130,7 +130,7 @@ internal sealed class PairSweep : PairSearch
             var triangle1 = local1.Place(in Motion1);
             var triangle2 = local2.Place(in Motion2);
             var test = new SeparationTest(
-                in Motion1, in Motion2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius);
+                in Motion1, in Motion2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius, out var relative);
             if (test.SafeTime(pair.Axis, in triangle1, in triangle2, _distance) < _end)
             {
                 TestTriangles(in local1, in local2, 0);
@@ -148,7 +148,7 @@ internal sealed class PairSweep : PairSearch
             var from2 = Motion2.From(time);
             var box1 = First[node1].Place(in from1);
             var box2 = Second[node2].Place(in from2);
-            var test = new SeparationTest(in from1, in from2, box1.Centre, box1.Radius, box2.Centre, box2.Radius);
+            var test = new SeparationTest(in from1, in from2, box1.Centre, box1.Radius, box2.Centre, box2.Radius, out var relative);
             var safe = test.SafeTime(in box1, in box2, _distance, _end - time);
             var isAhead = safe >= MinAdvance * (_end - time);
             time += safe;
@@ -191,8 +191,10 @@ internal sealed class PairSweep : PairSearch
         {
             var triangle = isFirst ? local.Place(in from1) : local.Place(in from2);
             var test = isFirst
-                ? new SeparationTest(in from1, in from2, triangle.Centre, triangle.Radius, otherBox.Centre, otherBox.Radius)
-                : new SeparationTest(in from1, in from2, otherBox.Centre, otherBox.Radius, triangle.Centre, triangle.Radius);
+                ? new SeparationTest(
+                    in from1, in from2, triangle.Centre, triangle.Radius, otherBox.Centre, otherBox.Radius, out var relative)
+                : new SeparationTest(
+                    in from1, in from2, otherBox.Centre, otherBox.Radius, triangle.Centre, triangle.Radius, out relative);
             if (test.SafeTime(in triangle, in otherBox, isFirst, _distance, _end - time) < _end - time)
             {
                 near.Add(local);
@@ -213,7 +215,7 @@ internal sealed class PairSweep : PairSearch
             var triangle1 = local1.Place(in from1);
             var triangle2 = local2.Place(in from2);
             var test = new SeparationTest(
-                in from1, in from2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius);
+                in from1, in from2, triangle1.Centre, triangle1.Radius, triangle2.Centre, triangle2.Radius, out var relative);
             if (advances == 0 && test.SafeTime(in triangle1, in triangle2, distance, _end - time) >= _end - time)
             {
                 return;

@@ -40,6 +40,17 @@ internal sealed class RigidPair
     /// <summary>Index of the second one's state.</summary>
     public int SecondIndex { get; private set; }
 
+    /// <summary>True where one carries the other, or a third one both, so that nothing comes closer.</summary>
+    private bool IsCarried => First.Carrier is not null && First.Carrier == Second.Carrier;
+
+    /// <summary>What is met, of the first and the second, by the other one that moves by itself or is carried; null for none.</summary>
+    public (RigidSurface Met, int Index, RigidSurface Carrier)? Push => (First.Carrier, Second.Carrier) switch
+    {
+        (null, { } carrier) => (First, FirstIndex, carrier),
+        ({ } carrier, null) when Second.Body is not null => (Second, SecondIndex, carrier),
+        _ => null,
+    };
+
     /// <summary>The indices of both states.</summary>
     public (int First, int Second) Indices => (FirstIndex, SecondIndex);
 
@@ -121,7 +132,7 @@ internal sealed class RigidPair
         _swept = (1, 1);
         var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
         _substepWay = MaxWay(in motion1, in motion2);
-        Impact = Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
+        Impact = IsCarried ? 1 : Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
         FirstImpact = Impact;
     }
 
@@ -142,7 +153,7 @@ internal sealed class RigidPair
     }
 
     /// <summary>True where one has stopped since the last sweep, and the other one goes on.</summary>
-    public bool IsSweepDue => _swept != (First.Fraction, Second.Fraction) && First.Fraction != Second.Fraction
+    public bool IsSweepDue => !IsCarried && _swept != (First.Fraction, Second.Fraction) && First.Fraction != Second.Fraction
         && (First.Fraction < Second.Fraction ? Second : First).Motion.IsMoving;
 
     /// <summary>Ends a substep. What is near is looked for anew where the two have met, or may have come too close.</summary>

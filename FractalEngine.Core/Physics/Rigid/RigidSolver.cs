@@ -28,7 +28,10 @@ internal static class RigidSolver
     /// <param name="rows">The contacts; their impulses are those of the last substep for a start.</param>
     /// <param name="substep">Length of the substep, seconds.</param>
     /// <param name="guard">Takes back energy that contacts add.</param>
-    public static void Solve(Span<RigidState> states, Span<RigidRow> rows, double substep, RigidEnergyGuard guard)
+    /// <param name="maxAngle">Radians that a body may turn.</param>
+    /// <returns>The seconds that have been made: fewer where a body would turn farther.</returns>
+    public static double Solve(
+        Span<RigidState> states, Span<RigidRow> rows, double substep, RigidEnergyGuard guard, double maxAngle)
     {
         foreach (ref var row in rows)
         {
@@ -39,10 +42,25 @@ internal static class RigidSolver
         guard.Begin(states, rows);
         WarmStart(states, rows);
         SolveRounds(states, rows, substep);
-        Move(states, substep);
+        var made = MadeOf(states, substep, maxAngle);
+        Move(states, made);
         Bounce(states, rows);
         guard.End(states);
         RestoreGaps(states, rows);
+        Accelerate(states, made - substep);
+        return made;
+    }
+
+    /// <summary>The seconds of a substep in which no body turns farther than an angle.</summary>
+    private static double MadeOf(ReadOnlySpan<RigidState> states, double substep, double maxAngle)
+    {
+        var made = substep;
+        foreach (ref readonly var state in states)
+        {
+            made = state.IsDynamic && maxAngle < made * state.Spin.Length() ? maxAngle / state.Spin.Length() : made;
+        }
+
+        return made;
     }
 
     /// <summary>Moves bodies apart that are too close at the end. Their velocities stay as they are.</summary>
@@ -96,6 +114,11 @@ internal static class RigidSolver
 
     private static void Accelerate(Span<RigidState> states, double substep)
     {
+        if (substep == 0)
+        {
+            return;
+        }
+
         foreach (ref var state in states)
         {
             if (state.HasContacts && state.IsDynamic)
@@ -218,6 +241,12 @@ internal static class RigidSolver
         foreach (ref var row in rows)
         {
             row.NormalImpulseSum += row.NormalImpulse;
+            ref readonly var second = ref states[row.Second];
+            if (!second.IsDynamic && (second.Velocity != Vector.Zero || second.Spin != Vector.Zero))
+            {
+                states[row.First].SetPivot(
+                    row.TurnedArm1, Vector.Dot(row.Normal, RelativeVelocity(in row, states, row.TurnedArm1, row.TurnedArm2)));
+            }
         }
     }
 

@@ -51,6 +51,12 @@ internal struct RigidState
     /// <summary>Rate of damping, per second.</summary>
     public double Damping;
 
+    /// <summary>The contact with what moves by itself that is left most slowly, relative to the reference point; zero for none.</summary>
+    public Vector Pivot;
+
+    /// <summary>How fast it is left, units per second.</summary>
+    public double PivotSpeed;
+
     /// <summary>True for a body with contacts, which goes with the others in small steps.</summary>
     public bool HasContacts;
 
@@ -87,6 +93,18 @@ internal struct RigidState
     {
         TravelBefore = Travel;
         TurnBefore = Turn;
+        Pivot = Vector.Zero;
+        PivotSpeed = double.PositiveInfinity;
+    }
+
+    /// <summary>Makes a contact with what moves by itself the pivot, if it is left more slowly than the present one.</summary>
+    public void SetPivot(Vector arm, double speed)
+    {
+        if (speed < PivotSpeed)
+        {
+            Pivot = arm;
+            PivotSpeed = speed;
+        }
     }
 
     /// <summary>Takes back a part of what it has moved in the substep, by no force.</summary>

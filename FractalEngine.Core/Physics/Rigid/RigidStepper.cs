@@ -22,8 +22,11 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     private const int MinSubsteps = 8;
     private const int MaxSubsteps = 1024;
 
-    // So often does a step begin a substep anew; then what moves by itself goes on, whatever it meets.
+    // So often are substeps cut short so that nothing turns too far in them.
     private const int MaxCuts = 64;
+
+    // So often does what moves by itself push a body in a step; then it carries it.
+    private const int MaxPushes = 16;
 
     // What makes a smaller part of its way counts as held, and after so many substeps it is slowed down.
     private const double MinFraction = 0.01;
@@ -42,6 +45,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     private RigidSurface? _character;
     private Vector _gravity;
     private double _seconds;
+    private bool _isMoving;
 
     /// <summary>True where a body of the world has the shape of its mesh, so that this takes all bodies through their steps.</summary>
     public bool IsNeeded { get; private set; }
@@ -69,10 +73,13 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         GatherCharacter(character, isTurned: gravity != _gravity);
         _gravity = gravity;
         _seconds = seconds;
+        _isMoving = false;
         _sleep.WakeNearMoving(statics);
         var angle = 0.0;
         for (var i = 0; i < _surfaces.Count; i++)
         {
+            _surfaces[i].Carrier = null;
+            _surfaces[i].PushCount = 0;
             if (_surfaces[i].Body is not { } body)
             {
                 _states[i] = CreateState(_surfaces[i]);
@@ -92,6 +99,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var count = _pairs.Pairs.Count == 0 && angle <= MaxAngle ? 1
             : (int)Math.Clamp(Math.Ceiling(angle / MaxAngle), MinSubsteps, MaxSubsteps);
         var cuts = 0;
+        var maxCuts = count + MaxSubsteps + (MaxPushes * bodies.Count);
         for (var i = 0; i < count; i++)
         {
             // A substep ends early where an object that moves by itself meets a body, which it pushes from then on.
@@ -103,7 +111,8 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
                     FindContacts(time);
                 }
 
-                var cut = MoveSubstep(time, (1 - made) / count, canCut: cuts++ < count + MaxCuts);
+                var cut = MoveSubstep(time, (1 - made) / count, canTurn: cuts >= count + MaxCuts, canCut: cuts < maxCuts);
+                cuts++;
                 made = cut < 1 ? made + (cut * (1 - made)) : 1;
             }
         }
@@ -252,6 +261,8 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             moved.Pose.Position, state.Orientation, 1, _seconds * moved.Velocity, _seconds * moved.AngularVelocity);
         surface.Motion = surface.PartMotion;
         surface.SweptBounds = moved.SweptBounds;
+        surface.Carrier = moved.IsMoving ? surface : null;
+        _isMoving |= moved.IsMoving;
         return state;
     }
 
@@ -410,9 +421,10 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     /// <summary>Moves everything on until it touches.</summary>
     /// <param name="time">Now, as a fraction of the step.</param>
     /// <param name="fraction">Length of the substep, relative to the step.</param>
+    /// <param name="canTurn">True to let bodies turn as far as they do.</param>
     /// <param name="canCut">False to let objects that move by themselves go on, whatever they meet.</param>
     /// <returns>The part of the substep that has been made.</returns>
-    private double MoveSubstep(double time, double fraction, bool canCut)
+    private double MoveSubstep(double time, double fraction, bool canTurn, bool canCut)
     {
         var states = _states.AsSpan(0, _surfaces.Count);
         foreach (ref var state in states)
@@ -420,10 +432,12 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             state.BeginSubstep();
         }
 
-        RigidSolver.Solve(states, CollectionsMarshal.AsSpan(_rows), fraction * _seconds, _guard);
-        PlanMotions(time, fraction);
+        var substep = fraction * _seconds;
+        var made = RigidSolver.Solve(
+            states, CollectionsMarshal.AsSpan(_rows), substep, _guard, _isMoving && !canTurn ? MaxAngle : double.PositiveInfinity);
+        PlanMotions(time, made < substep ? made / _seconds : fraction);
         _sweep.StopBodies(_pairs, _surfaces);
-        var cut = canCut ? FirstPush() : 1;
+        var cut = canCut && _isMoving ? FirstPush(made) : 1;
         for (var i = 0; i < _surfaces.Count; i++)
         {
             if (cut < 1)
@@ -433,7 +447,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
 
             if (i < bodies.Count)
             {
-                Commit(_surfaces[i], ref _states[i], fraction * _seconds, isTimeKept: cut < 1 && _surfaces[i].Fraction == cut);
+                Commit(_surfaces[i], ref _states[i], made, isTimeKept: cut < 1 && _surfaces[i].Fraction == cut);
             }
             else
             {
@@ -446,16 +460,34 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             pair.EndSubstep();
         }
 
-        return cut;
+        return cut * (made / substep);
     }
 
-    /// <summary>The part of the substep after which the first object that moves by itself meets a body; 1 where none does.</summary>
-    private double FirstPush()
+    /// <summary>
+    /// The part of the substep after which the first object that moves by itself meets a body; 1 where none does. What it has met too
+    /// often it carries from then on.
+    /// </summary>
+    private double FirstPush(double seconds)
     {
         var first = 1.0;
+        foreach (var surface in _surfaces)
+        {
+            first = surface is { Body: not null, Carrier: not null, IsReachDue: true } ? Math.Min(first, surface.Fraction) : first;
+        }
+
         foreach (var pair in _pairs.Pairs)
         {
-            first = pair.Second.Body is null && pair.Second.Motion.IsMoving ? Math.Min(first, pair.FirstImpact) : first;
+            first = pair.Push is not null ? Math.Min(first, pair.FirstImpact) : first;
+        }
+
+        foreach (var pair in _pairs.Pairs)
+        {
+            if (first < 1 && pair.FirstImpact <= first && pair.Push is { } push && push.Met.PushCount++ >= MaxPushes)
+            {
+                push.Met.Carrier = push.Carrier;
+                push.Met.IsReachDue = true;
+                _states[push.Index].Velocity = push.Carrier.Motion.From(first).VelocityAt(push.Met.Body!.Position) / seconds;
+            }
         }
 
         return first;
@@ -474,13 +506,23 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
                 continue;
             }
 
+            if (surface.Carrier is { } carrier)
+            {
+                surface.SetCarriedMotion(carrier.PartMotion.Slice(time, fraction));
+                state.Velocity = surface.Motion.From(1).VelocityAt(surface.Motion.From(1).Origin) / (fraction * _seconds);
+                state.Spin = state.LocalInverseInertia == default ? Vector.Zero : surface.Motion.Turn / (fraction * _seconds);
+                state.Travel = state.TravelBefore + surface.Motion.From(1).Origin - surface.Motion.Origin;
+                state.Turn = state.TurnBefore.TurnedBy(surface.Motion.Turn);
+                continue;
+            }
+
             if (!state.HasContacts)
             {
                 RigidFlight.Fly(bodies[i], ref state, fraction * _seconds);
             }
 
             var turn = state.Turn.After(state.TurnBefore.Inverse());
-            surface.SetMotion(state.Travel - state.TravelBefore, turn.RotationVector);
+            surface.SetMotion(state.Travel - state.TravelBefore, turn.RotationVector, state.Pivot);
         }
     }
 
@@ -504,7 +546,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         }
 
         // What cannot move for a whole step loses the speed that it would otherwise gather.
-        body.HeldCount = surface.Fraction < MinFraction ? body.HeldCount + 1 : 0;
+        body.HeldCount = isTimeKept ? body.HeldCount : surface.Fraction < MinFraction ? body.HeldCount + 1 : 0;
         if (body.HeldCount >= MaxHeldCount)
         {
             state.Velocity *= 0.5;

@@ -14,6 +14,9 @@ internal sealed class RigidSurface
     private const double ReachRadii = 0.1;
     private const double ReachFraction = 0.5;
 
+    // Radians: on a larger turn about a point of its surface a centre leaves its straight way by more than pairs are apart.
+    private const double MaxPivotAngle = 0.4;
+
     private BoundingBox _centres;
     private (Vector Position, Orientation Orientation, double Scale, Vector Belt) _end;
 
@@ -51,6 +54,12 @@ internal sealed class RigidSurface
 
     /// <summary>The tree of its surface.</summary>
     public RigidShape Shape { get; }
+
+    /// <summary>What moves by itself and carries it along, whatever else acts; null for none. Such an object carries itself.</summary>
+    public RigidSurface? Carrier { get; set; }
+
+    /// <summary>How often what moves by itself, or is carried by that, has met it in the part of the step.</summary>
+    public int PushCount { get; set; }
 
     /// <summary>Where it is and how it moves in the present substep, which takes a unit of time.</summary>
     public SurfaceMotion Motion { get; set; }
@@ -151,9 +160,26 @@ internal sealed class RigidSurface
     /// <summary>Sets the motion of a body in a substep. It stops where what it may meet has not been looked for.</summary>
     /// <param name="travel">How far its centre goes.</param>
     /// <param name="turn">Rotation vector of its turn.</param>
-    public void SetMotion(Vector travel, Vector turn)
+    /// <param name="pivot">Where what moves by itself touches it, relative to its centre; zero where nothing does.</param>
+    public void SetMotion(Vector travel, Vector turn, Vector pivot)
     {
-        Motion = CreateMotion(travel, turn).AsScrew(Radius);
+        var motion = CreateMotion(travel, turn);
+        SetMotion(pivot != Vector.Zero && motion.Angle <= MaxPivotAngle ? motion.About(pivot) : motion.AsScrew(Radius), travel);
+    }
+
+    /// <summary>Sets the motion of a body that is carried.</summary>
+    /// <param name="carrier">How what carries it moves in the substep.</param>
+    public void SetCarriedMotion(in SurfaceMotion carrier)
+    {
+        var body = CreateMotion(Vector.Zero, Vector.Zero);
+        var motion = new SurfaceMotion(
+            carrier.Position, body.Orientation, body.Scale, carrier.Travel, carrier.Turn, body.Position - carrier.Position);
+        SetMotion(in motion, motion.From(1).Origin - motion.Origin);
+    }
+
+    private void SetMotion(in SurfaceMotion motion, Vector travel)
+    {
+        Motion = motion;
         // A screw leads farther out than its ends.
         var detour = 1 + Motion.Angle;
         Fraction = Math.Min(

@@ -1,3 +1,4 @@
+using System.Diagnostics.CodeAnalysis;
 using System.Runtime.CompilerServices;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Descriptions;
@@ -11,11 +12,18 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// <remarks>
 /// A point p of a surface that turns by θ about what goes straight on with the velocity u moves along a unit vector n by
 /// n·(u + θ×p)·t, and by no more than |θ|²·ρ·t²/2 besides, where ρ is the distance from the axis of the farthest point of its part.
+/// Where the second surface turns and is large, the first one is seen from it: then it is at rest, and what is fictitious (2θ×v, θ×(θ×p))
+/// adds to the acceleration of the first.
 /// </remarks>
 internal readonly ref struct SeparationTest
 {
     // A shorter product of two edges has no direction: they are parallel.
     private const double MinSine = 1e-6;
+
+    // So many times smaller must the bound of the motion be in the frame of the second surface.
+    private const double MinGain = 4;
+
+    private static readonly SurfaceMotion AtRest = new(default, Orientation.Identity, 1, default, default);
 
     private readonly ref readonly SurfaceMotion _first;
     private readonly ref readonly SurfaceMotion _second;
@@ -28,12 +36,30 @@ internal readonly ref struct SeparationTest
     /// <param name="radius1">Radius about it.</param>
     /// <param name="centre2">Middle of the second part now.</param>
     /// <param name="radius2">Radius about it.</param>
+    /// <param name="relative">Receives the motion of the first surface as seen from the second one, if that is looked at.</param>
     public SeparationTest(
-        in SurfaceMotion first, in SurfaceMotion second, Vector centre1, double radius1, Vector centre2, double radius2)
+        in SurfaceMotion first, in SurfaceMotion second, Vector centre1, double radius1, Vector centre2, double radius2,
+        [UnscopedRef] out SurfaceMotion relative)
     {
+        Unsafe.SkipInit(out relative);
         _first = ref first;
         _second = ref second;
         _curvature = Curvature(in first, centre1, radius1) + Curvature(in second, centre2, radius2);
+        if (!(second.Angle > 0) || radius2 <= MinGain * radius1)
+        {
+            return;
+        }
+
+        var way = (first.Travel - second.Travel).Length() + (first.Angle * ((centre1 - first.Position).Length() + radius1));
+        var arm = (centre1 - second.Position).Length() + radius1 + way;
+        var curvature = Curvature(in first, centre1, radius1) + (second.Angle * (way + (0.5 * second.Angle * arm)));
+        if (MinGain * curvature < _curvature)
+        {
+            relative = first.SeenFrom(in second);
+            _first = ref relative;
+            _second = ref AtRest;
+            _curvature = curvature;
+        }
     }
 
     /// <summary>Finds for how long two boxes surely stay farther apart than a distance.</summary>

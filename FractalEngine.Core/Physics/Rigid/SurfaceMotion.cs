@@ -84,6 +84,11 @@ internal readonly struct SurfaceMotion
             ? new(Position + toAxis, Orientation, Scale, Travel - across, Turn, -toAxis) : this;
     }
 
+    /// <summary>The motion between the same ends on which another point goes straight on.</summary>
+    /// <param name="pivot">The point relative to the reference point.</param>
+    public SurfaceMotion About(Vector pivot) => new(
+        Position + pivot, Orientation, Scale, Travel + Orientation.Identity.TurnedBy(Turn).Rotate(pivot) - pivot, Turn, Arm - pivot);
+
     /// <summary>The same motion from a later time on.</summary>
     /// <param name="time">In units of the motion.</param>
     public SurfaceMotion From(double time)
@@ -108,6 +113,10 @@ internal readonly struct SurfaceMotion
 
     /// <summary>The same motion with coordinates relative to a point.</summary>
     public SurfaceMotion RelativeTo(Vector origin) => new(Position - origin, Orientation, Scale, Travel, Turn, Arm);
+
+    /// <summary>The motion at the beginning as it is seen from another surface.</summary>
+    public SurfaceMotion SeenFrom(in SurfaceMotion other) =>
+        new(Position, Orientation, Scale, Travel - other.VelocityAt(Position), Turn - other.Turn, Arm);
 
     /// <summary>The motion of what stays where it is.</summary>
     public SurfaceMotion Stopped => new(Position, Orientation, Scale, Vector.Zero, Vector.Zero, Arm);

@@ -189,9 +189,8 @@ internal sealed class KinematicObject
         return true;
     }
 
-    /// <summary>Upper bound on the speed of its points as what moves along with a velocity sees them, no more than their own.</summary>
-    public double MaxSpeedBeside(Vector velocity) =>
-        Math.Min(MaxSpeed, (Velocity - velocity).Length() + (AngularVelocity.Length() * _radius));
+    /// <summary>Upper bound on the speed of its points as what moves along with a velocity sees them.</summary>
+    public double MaxSpeedBeside(Vector velocity) => (Velocity - velocity).Length() + (AngularVelocity.Length() * _radius);
 
     /// <summary>Where a point of the reference placement is now.</summary>
     public Vector ToWorld(Vector reference)

@@ -69,7 +69,8 @@ internal sealed class KinematicSet
     /// <param name="motion">Path of the mover.</param>
     /// <param name="duration">Seconds that it takes.</param>
     /// <param name="reach">How far its surface is from its position.</param>
-    public double MaxSpeedNear(in SphereMotion motion, double duration, double reach)
+    /// <param name="isRelative">True for the speed as the mover sees it at the beginning.</param>
+    public double MaxSpeedNear(in SphereMotion motion, double duration, double reach, bool isRelative = false)
     {
         var maxSpeed = 0.0;
         if (IsFrozen)
@@ -83,7 +84,8 @@ internal sealed class KinematicSet
         {
             var bounds = candidate.SweptBounds;
             var gap = Vector.Max(bounds.Minimum - box.Maximum - margin, box.Minimum - margin - bounds.Maximum);
-            maxSpeed = Math.Max(gap.X, Math.Max(gap.Y, gap.Z)) <= 0 ? Math.Max(maxSpeed, candidate.MaxSpeed) : maxSpeed;
+            var speed = isRelative ? candidate.MaxSpeedBeside(motion.Velocity) : candidate.MaxSpeed;
+            maxSpeed = Math.Max(gap.X, Math.Max(gap.Y, gap.Z)) <= 0 ? Math.Max(maxSpeed, speed) : maxSpeed;
         }
 
         return maxSpeed;

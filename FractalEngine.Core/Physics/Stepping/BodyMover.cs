@@ -89,12 +89,14 @@ internal sealed class BodyMover
 
         var simultaneousImpacts = 0;
         var timeLeft = stepLength;
-        var maxImpacts = body.IsCompound ? MaxImpactsOfCompound : MaxImpacts;
-        for (var impact = 0; impact < maxImpacts && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0; impact++)
+        var impactsLeft = body.IsCompound ? MaxImpactsOfCompound : MaxImpacts;
+        for (var advance = 0; advance < MaxImpacts && impactsLeft > 0 && simultaneousImpacts < MaxSimultaneousImpacts && timeLeft > 0;
+            advance++)
         {
             _obstacles.Time = stepLength - timeLeft;
             var elapsed = body.IsCompound ? _compoundFlight.Advance(body, timeLeft) : _ballFlight.Advance(body, timeLeft);
             timeLeft -= elapsed;
+            impactsLeft -= body.IsCompound && _compoundFlight.HasMet ? 1 : 0;
             simultaneousImpacts = elapsed > 0 ? 0 : simultaneousImpacts + 1;
         }
     }

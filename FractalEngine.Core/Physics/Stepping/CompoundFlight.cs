@@ -25,6 +25,9 @@ internal sealed class CompoundFlight(
     private readonly List<ContactRow> _rows = new(InitialCapacity);
     private readonly List<int> _members = new(InitialCapacity);
 
+    /// <summary>True where the last advance has ended at something that was touched.</summary>
+    public bool HasMet { get; private set; }
+
     /// <summary>Responds to what the compound touches, and moves it until it touches something new, or the time is up.</summary>
     /// <param name="body">Touches no other body that is awake. Obstacles must be set up for it.</param>
     /// <param name="timeLeft">Seconds.</param>
@@ -131,6 +134,7 @@ internal sealed class CompoundFlight(
         var energy = body.KineticEnergy;
         var momentum = body.InertiaTensor * body.AngularVelocity;
         Contact? touched = null;
+        HasMet = false;
         var touchedBall = 0;
         for (var plan = 1; plan <= BodySweep.MaxPlans; plan++)
         {
@@ -178,6 +182,7 @@ internal sealed class CompoundFlight(
             if (touched is { } met)
             {
                 // What a shorter plan does not quite meet is as near as a contact.
+                HasMet = true;
                 body.Balls[touchedBall].Contacts.Add(in met, body.BallCentre(touchedBall));
             }
 
