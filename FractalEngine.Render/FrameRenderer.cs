@@ -366,7 +366,7 @@ public sealed class FrameRenderer : IDisposable
     /// <summary>Returns a framebuffer of the requested size, replacing the last one where that differs.</summary>
     private Framebuffer EnsureTarget(int width, int height, RenderSettings settings)
     {
-        var sampleCount = settings.PixelSize > 1 ? 0 : Math.Clamp(settings.Samples, 0, _context.MaxSampleCount);
+        var sampleCount = EffectiveCulling.SampleCount(settings, _context.MaxSampleCount);
         var state = (width, height, settings.PixelSize, sampleCount, settings.KeepsLight);
         if (_sceneTarget is not null && _targetState == state)
         {

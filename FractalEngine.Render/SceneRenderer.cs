@@ -19,7 +19,7 @@ public sealed class SceneRenderer : IDisposable
     private readonly SceneBuffers _buffers;
     private ObjectTransforms _transforms;
     private ObjectsPass _objectsPass;
-    private readonly DerivedCulling _effectiveCulling = new(EffectiveCulling.Of);
+    private readonly DerivedCulling _effectiveCulling;
     private BoundingBox? _bounds;
     private bool _hasMoved;
     private bool _isDisposed;
@@ -37,6 +37,7 @@ public sealed class SceneRenderer : IDisposable
         context.MakeCurrent();
         Scene = scene;
         Context = context;
+        _effectiveCulling = new(settings => EffectiveCulling.Of(settings, context.MaxSampleCount));
         _transforms = new(scene);
         _buffers = new(context.Resources);
         _objectsPass = new(context, scene, _buffers, _transforms);

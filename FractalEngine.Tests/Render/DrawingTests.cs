@@ -1,5 +1,6 @@
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -241,6 +242,23 @@ public sealed class DrawingTests
         var error = Assert.Throws<GlException>(() => frame.Draw(null, RenderScenes.FrontView, 1_000_000, 10, new()));
         Assert.Equal(
             $"a frame of 1000000×10 pixels cannot be drawn: this driver allows 1 to {context.MaxFrameSize} pixels a side", error.Message);
+    }
+
+    /// <summary>Larger pixels have one sample, whatever the settings ask for: culling must not go by the places of four.</summary>
+    [SkippableFact]
+    public void LargerPixels_OfManySamples_ShowWhatIsAtTheirCentres()
+    {
+        Transformation[] corners =
+        [
+            .. Enumerable.Range(0, 8).Select(static i => new Transformation(
+                new((i & 1) - 0.5, ((i >> 1) & 1) - 0.5, (i >> 2) - 0.5), new(20, 10, 0), 0.35 * Vector.One)),
+        ];
+        var dust = Fractal.Of(Shapes.Cube()).Repeat(corners, 3);
+        var scene = RenderScenes.Scene(new Scene(), (new FractalModel(dust), Transformation.Identity, new Colour(0.9, 0.6, 0.1)));
+        var view = new View(ObliqueCamera, Projection.Perspective);
+        var settings = PlainLight with { Samples = 4, PixelSize = 2, Culling = new() { MinProjectedSize = 0 } };
+        var everything = RenderScenes.Draw(scene, view, 96, 72, settings with { Culling = null });
+        Assert.Equal(everything.Pixels, RenderScenes.Draw(scene, view, 96, 72, settings).Pixels);
     }
 
     [SkippableTheory]
