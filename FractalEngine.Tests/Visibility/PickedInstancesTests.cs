@@ -27,6 +27,8 @@ public sealed class PickedInstancesTests : IDisposable
         "z<ball>. [((-2, 0, 0), #, (0.5)), ((2, 0, 0), #, (0.7))] ball + cone\n"
         + "<$>. [((0, 0, 0), #, (2)), ((9, 0, 0), #, #)] z until 0.3")]
     [InlineData("seed 4\nx. 1: (1: box | 1: [] box) | 1: ball\n<$>. [((3, 0, 0), #, #)^0..19] x")]
+    [InlineData("x. 1: (1: [((0, 1, 0), #, #)] box) | 1: ball\n<$>. [((3, 0, 0), #, #)^0..19] x")]
+    [InlineData("x. 1: (1: box + [((0, 1, 0), #, #)] cone) | 1: ball\n<$>. [((3, 0, 0), #, #)^0..19] x")]
     public void Instances_OfEachMesh_AreThoseOfTheExpansion(string text)
     {
         var fractal = FractalFile.Read(_folder.Write("a.fdo", text + "\n"));

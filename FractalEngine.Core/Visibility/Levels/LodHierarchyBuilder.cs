@@ -38,9 +38,10 @@ internal static class LodHierarchyBuilder
 
     private static LodNode BuildNode(HierarchyLevel level, BoundingBox baseBox, bool hasPicks, Tint? mean)
     {
-        // A pick knows the alternatives by their numbers, so that none is left out.
+        // A pick knows the alternatives by their numbers: none is left out, except where all are empty.
         var pick = level.Set?.Pick;
-        var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(child => pick is not null || !child.Second.IsEmpty);
+        var keepsAll = pick is not null && !level.Box.IsEmpty;
+        var children = level.Edges.Zip(level.GetEdgeBoxes()).Where(child => keepsAll || !child.Second.IsEmpty);
         LodChild[] all = [.. children.Select(child => CreateChild(child.First, child.Second, hasPicks, mean is not null))];
         return new(level.Box, ComputeProxyMap(baseBox, level.Box), all, level.Set?.Maps.Length ?? 0, pick)
         {
