@@ -249,7 +249,7 @@ internal sealed class WorldStepper
                 var body = _bodies[index];
                 var beside = seconds * moved.MaxSpeedBeside(body.Velocity);
                 var maxTravel = (body.IsCompound ? MaxParts * MaxKinematicTravel : MaxTravelOfBalls) * body.Radius;
-                if (Math.Max(distance, beside) > maxTravel && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
+                if (distance > maxTravel && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
                 {
                     _isFast = true;
                     continue;
