@@ -127,6 +127,43 @@ public class InstanceGradientTests
         }
     }
 
+    /// <summary>No instance of a sub-fractal stands outside of the interval that its proxy's colour is the mean of.</summary>
+    [Theory]
+    [InlineData(Tree)]
+    [InlineData(Cubes)]
+    [InlineData("z<box>. [((9, 0, 0), (0, 80, 30), (0.2, 1, 0.1)), ((0, -7, 1), (50, 0, 0), (-0.9))] box\n<$>. z 6")]
+    [InlineData("z<box>. [((0.1, 5, 0), (0, 90, 0), (1)), ((4, 0, 0.2), #, (0.05, 2, 0.5))] box\n<$>. z 6")]
+    public void Intervals_OfProxies_HoldAllInstances(string text)
+    {
+        var hierarchy = LodHierarchy.Build(Read(text));
+        foreach (var kind in new[] { GradientKind.Path, GradientKind.Height, GradientKind.Distance, GradientKind.Trap })
+        {
+            var shading = new InstanceGradient(Gradient.Of(kind, Colours), hierarchy);
+            var count = 0;
+            Visit(ColourPath.Start, hierarchy.Start, AffineMap.Identity);
+            Assert.InRange(count, 20, 1000);
+
+            (double Least, double Most) Visit(ColourPath path, LevelState state, AffineMap map)
+            {
+                var node = hierarchy.NodeAt(state.Level);
+                var (from, to) = shading.IntervalOf(in path, node, state.Level, new(map));
+                var (least, most) = node.ChildMaps.Length == 0 ? (from, to) : (double.PositiveInfinity, double.NegativeInfinity);
+                for (var i = 0; i < node.ChildMaps.Length; i++)
+                {
+                    var childMap = map * node.ChildMaps[i].ToAffineMap();
+                    var child = shading.PassBy(path.Append(node.ChildMapIndices[i], node.SetSize), new(childMap));
+                    var (first, last) = Visit(child, hierarchy.Enter(node, i, state), childMap);
+                    (least, most) = (Math.Min(least, first), Math.Max(most, last));
+                }
+
+                // Paths and approaches are kept in single precision.
+                Assert.True(from <= least + 1e-6 && most <= to + 1e-6, Invariant($"{kind}: {least}..{most} in {from}..{to}"));
+                count++;
+                return (least, most);
+            }
+        }
+    }
+
     [Fact]
     public void ShadeOf_SomeLevelsDeep_IsThatOfTheWholeFractal()
     {

@@ -10,7 +10,8 @@ namespace FractalEngine.Core.Visibility.Levels;
 /// <summary>Tells where the instances of one fractal stand in a gradient, and the mean colour of what each proxy stands for.</summary>
 /// <remarks>
 /// By level the mean is exact, weighted by areas. By other kinds, positions of a sub-fractal in the gradient are taken to fill an
-/// interval that holds them evenly: the error is at most the largest difference of two colours within it, and mostly far less.
+/// interval that holds them evenly: the error is at most the largest difference of two colours within it, and mostly far less. The
+/// interval of an orbit trap is that of 1,024 levels where there are more.
 /// </remarks>
 public sealed class InstanceGradient
 {
@@ -27,6 +28,9 @@ public sealed class InstanceGradient
     // By remaining levels, then by the number of maps within one wave; empty where the path itself tells.
     private readonly GradientShade[][] _levelMeans;
 
+    // By remaining levels, of an orbit trap: holds all places to which further maps carry the centre, in the frame of the sub-fractal.
+    private readonly BoundingBox[] _passages;
+
     /// <summary>Prepares a gradient on a fractal.</summary>
     /// <param name="gradient">The gradient, of any kind but <see cref="GradientKind.None"/>.</param>
     /// <param name="hierarchy">That of a fractal in affine composition.</param>
@@ -41,6 +45,7 @@ public sealed class InstanceGradient
         _bounds = hierarchy.WholeBounds ?? throw new ArgumentException("expected a fractal in affine composition", nameof(hierarchy));
         _colourLevels = hierarchy.ColourLevels;
         _levelMeans = gradient.Kind == GradientKind.Level && hierarchy.LevelCount <= MaxLevels ? ComputeLevelMeans() : [];
+        _passages = gradient.Kind == GradientKind.Trap ? ComputePassages() : [];
     }
 
     /// <summary>The gradient that was prepared.</summary>
@@ -124,8 +129,8 @@ public sealed class InstanceGradient
 
     private GradientShade ShadeAt(double factor) => new(factor, Gradient.Palette?.ColourAt(factor) ?? Vector.Zero);
 
-    /// <summary>The positions in the gradient between which the instances of a sub-fractal lie.</summary>
-    private (double From, double To) IntervalOf(in ColourPath path, LodNode node, long level, in SimdAffineMap toFractal)
+    /// <summary>The positions in the gradient between which the instances of a sub-fractal lie; of any kind but by level.</summary>
+    internal (double From, double To) IntervalOf(in ColourPath path, LodNode node, long level, in SimdAffineMap toFractal)
     {
         var isInstance = node.ChildMaps.Length == 0;
         if (Gradient.Kind == GradientKind.Path)
@@ -134,21 +139,38 @@ public sealed class InstanceGradient
             return (path.PathFraction, path.PathFraction + rest);
         }
 
-        var offset = SimdAffineMap.ToVector(toFractal.Apply(node.Centre)) - _bounds.Centre;
-        var half = isInstance ? Vector.Zero : SimdAffineMap.ToVector(toFractal.TransformHalfSize(node.HalfSize));
+        var isTrap = Gradient.Kind == GradientKind.Trap;
+        var box = isTrap ? _passages[Math.Min(level, _passages.Length - 1)] : node.Box;
+        var offset = toFractal.Apply(box.Centre) - _bounds.Centre;
+        var half = isInstance
+            ? Vector.Zero : SimdAffineMap.ToVector(toFractal.TransformHalfSize(SimdAffineMap.ToVector256(0.5 * box.Size)));
         if (Gradient.Kind == GradientKind.Height)
         {
             var (middle, size) = (offset.Y + (0.5 * _bounds.Size.Y), _bounds.Size.Y);
             return ((middle - half.Y) / size, (middle + half.Y) / size);
         }
 
-        var distance = offset.Length();
-        var reach = distance > 0
-            ? ((Math.Abs(offset.X) * half.X) + (Math.Abs(offset.Y) * half.Y) + (Math.Abs(offset.Z) * half.Z)) / distance
-            : half.Length();
-        var (nearest, farthest) = (2 * (distance - reach) / _bounds.Diagonal, 2 * (distance + reach) / _bounds.Diagonal);
-        return Gradient.Kind == GradientKind.Distance ? (nearest, farthest)
+        var nearest = 2 * Vector.Max(offset.Absolute() - half, Vector.Zero).Length() / _bounds.Diagonal;
+        return !isTrap ? (nearest, 2 * (offset.Absolute() + half).Length() / _bounds.Diagonal)
             : (isInstance ? path.NearestApproach : Math.Min(nearest, path.NearestApproach), path.NearestApproach);
+    }
+
+    /// <summary>Computes for each level where further maps may carry the centre, from the levels below.</summary>
+    private BoundingBox[] ComputePassages()
+    {
+        var passages = new BoundingBox[Math.Min(_hierarchy.LevelCount, MaxLevels) + 1];
+        for (var level = 0; level < passages.Length; level++)
+        {
+            passages[level] = BoundingBox.Empty;
+            var node = _hierarchy.NodeAt(level);
+            for (var i = 0; i < node.ChildMaps.Length; i++)
+            {
+                var within = passages[node.ChildLevelSteps[i].RemainingLevels(level)].Including(_bounds.Centre);
+                passages[level] = BoundingBox.Union(passages[level], within.Transform(node.ChildMaps[i].ToAffineMap()));
+            }
+        }
+
+        return passages;
     }
 
     /// <summary>Computes the mean of each level for each number of maps before it, from those of the levels below.</summary>
