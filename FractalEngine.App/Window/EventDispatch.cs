@@ -16,12 +16,19 @@ namespace FractalEngine.App.Window;
 /// <param name="prompts">Shows questions.</param>
 internal sealed class EventDispatch(RenderWindow window, FrameRenderer frames, WindowActions actions, PromptHost prompts)
 {
+    private readonly TextComposition _composition = new();
+
     /// <summary>Passes an event to the first that takes it: panels, the open question, or the scene.</summary>
     /// <param name="physicalEvent">The event, before the user's key bindings.</param>
     /// <param name="now">The present time, in which clicks follow each other.</param>
     public Redraw Dispatch(WindowEvent physicalEvent, TimeSpan now)
     {
         var redraw = Redraw.None;
+        if (_composition.Takes(physicalEvent, prompts.Current is not null || actions.Panels.Ui.HasFocus))
+        {
+            return redraw;
+        }
+
         if (prompts.Current is null && HandleByInterface(physicalEvent, ref redraw))
         {
             return redraw;
