@@ -15,6 +15,9 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <summary>What the maps on the path mix into colours.</summary>
     public Vector128<float> MapTint { get; init; } = Tint.None.ToSingle();
 
+    /// <summary>Sides of what the path leads to that are never seen, see <see cref="Levels.CoveredSides"/>.</summary>
+    public int CoveredSides { get; init; }
+
     // Roots differ in bits that child indices do not reach.
     private const int RootShift = 40;
 
@@ -34,12 +37,15 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <param name="mapIndex">Index of the child's map in its set; −1 for the identity.</param>
     /// <param name="setSize">Number of maps of that set.</param>
     /// <param name="gradient">Gradient of the object.</param>
+    /// <param name="childSides">The child's sides that are covered, and those that lie in a side of its parent.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public CullingPath Append(int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient) => new(
+    public CullingPath Append(
+        int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient, (byte Covered, byte Shared) childSides) => new(
         ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
         gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
     {
         MapTint = MapTint,
+        CoveredSides = childSides.Covered | (childSides.Shared & CoveredSides),
     };
 
     /// <summary>Appends the tint of a child instance to that of the path.</summary>

@@ -24,6 +24,7 @@ internal sealed class InstanceList(bool hasPathHashes)
     private readonly List<int> _ends = [];
     private float[] _rows = new float[64 * FloatsPerInstance];
     private float[] _gradientFactors = [];
+    private float[] _coveredSides = [];
     private float[] _skyParts = [];
     private float[] _tints = [];
     private float[] _paletteColours = [];
@@ -42,6 +43,10 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <summary>Gradient factors from 0 to 1 of the instances of an object with a gradient, [n].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
     public ReadOnlySpan<float> GradientFactorsOf(int rank) => Slice(_gradientFactors, 1, rank);
+
+    /// <summary>Covered sides of the instances of an object with such: the sums of their bits, and growths, [n × 2].</summary>
+    /// <param name="rank">Rank of the object in the order of culling.</param>
+    public ReadOnlySpan<float> CoveredSidesOf(int rank) => Slice(_coveredSides, 2, rank);
 
     /// <summary>Tints of the instances of an object with colours: what is added, and what is kept, [n × 4].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
@@ -115,6 +120,11 @@ internal sealed class InstanceList(bool hasPathHashes)
             SetGradientFactor(other._gradientFactors[index]);
         }
 
+        if (2 * index < other._coveredSides.Length)
+        {
+            SetCoveredSides(other._coveredSides[2 * index], other._coveredSides[(2 * index) + 1]);
+        }
+
         if (index * FloatsPerTint < other._paletteColours.Length)
         {
             SetVector(ref _paletteColours, Vector128.Create<float>(other._paletteColours.AsSpan(index * FloatsPerTint, FloatsPerTint)));
@@ -140,6 +150,18 @@ internal sealed class InstanceList(bool hasPathHashes)
         }
 
         _gradientFactors[Count - 1] = gradientFactor;
+    }
+
+    /// <summary>Sets the covered sides of the last instance, and how many times as large it is drawn.</summary>
+    public void SetCoveredSides(float sides, float growth)
+    {
+        if (_coveredSides.Length < 2 * Count)
+        {
+            Array.Resize(ref _coveredSides, _rows.Length / FloatsPerInstance * 2);
+        }
+
+        _coveredSides[(2 * Count) - 2] = sides;
+        _coveredSides[(2 * Count) - 1] = growth;
     }
 
     /// <summary>Sets the tint of the last instance.</summary>

@@ -1,4 +1,5 @@
 using System.Runtime.CompilerServices;
+using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -26,6 +27,9 @@ internal sealed class StripCuller
     // The rule for small children holds up to this multiple of the minimum size: children that are tiny beside the gaps between them are
     // no solid.
     private const double MaxProxySizeRatio = 3;
+
+    // By the distance from the camera: some units in the last place of a float.
+    private const double FloatGap = 5e-7;
 
     private readonly OccluderRasterizer _rasterizer = new();
     private readonly ChildFootprints _footprints = new();
@@ -279,7 +283,8 @@ internal sealed class StripCuller
         var node = parent.Node;
         _skyPath.Set(parent.Depth, new(node, parent.State.Level, child));
         var state = context.Hierarchy.Enter(node, child, parent.State);
-        var path = parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient);
+        var sides = node.ChildSides.Length == 0 ? default : node.ChildSides[child];
+        var path = parent.Path.Append(child, parent.Depth, node.ChildMapIndices[child], node.SetSize, context.Gradient, sides);
         var nodeToView = SimdAffineMap.Compose(in parent.NodeToView, in node.ChildMaps[child]);
         if (context.Gradient == GradientKind.Trap && context.Shading is { } shading && node.ChildMapIndices[child] >= 0)
         {
@@ -293,6 +298,14 @@ internal sealed class StripCuller
             parent.Depth + 1,
             node.ChildTints.Length == 0 ? path : path.WithTint(node.ChildTints[child]));
     }
+
+    /// <summary>
+    /// Computes how many times as large boxes are drawn whose covered sides are left out: where they meet, floats of their places differ in
+    /// the last digits, and nothing is behind a gap.
+    /// </summary>
+    private static float GrowthOf(in SimdAffineMap instanceToWorld) =>
+        (float)(1 + (FloatGap * Math.Sqrt(Vector256.Dot(instanceToWorld.Translation, instanceToWorld.Translation)
+            / Vector256.Dot(instanceToWorld.V1, instanceToWorld.V1))));
 
     private static SimdAffineMap ToFractal(in StripContext context, in SimdAffineMap nodeToView)
     {
@@ -341,6 +354,13 @@ internal sealed class StripCuller
         if (context.HasColours)
         {
             instances.SetTint(instance.Path.WithTint(instance.Node.MeanTint).MapTint);
+        }
+
+        if (context.Hierarchy.HasCoveredSides)
+        {
+            // A proxy stands beside others whose parts may be drawn, with holes.
+            var sides = instance.Node.ChildMaps.Length == 0 ? instance.Path.CoveredSides : 0;
+            instances.SetCoveredSides(sides, sides == 0 ? 1 : GrowthOf(in instanceToWorld));
         }
 
         if (context.HasSkyParts)

@@ -1,4 +1,5 @@
 using FractalEngine.Core.Visibility.Frames;
+using FractalEngine.Core.Visibility.Levels;
 
 namespace FractalEngine.Core.Visibility;
 
@@ -111,6 +112,15 @@ public sealed class VisibleSet
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
     public ReadOnlySpan<float> GradientFactors(int objectIndex, int chunk) => ListOf(chunk).GradientFactorsOf(RankOf(objectIndex));
+
+    /// <summary>
+    /// Sides that are never seen, of an object whose hierarchy has <see cref="LodHierarchy.HasCoveredSides"/>. For each of
+    /// <see cref="Instances"/> the sum of 1, 2 and 4 for those towards +x, +y and +z of the base mesh and 8, 16 and 32 for −x, −y and −z,
+    /// and how many times as large the others are drawn about the middle, so that rounding leaves no gap between them, [n × 2].
+    /// </summary>
+    /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
+    /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>
+    public ReadOnlySpan<float> CoveredSides(int objectIndex, int chunk) => ListOf(chunk).CoveredSidesOf(RankOf(objectIndex));
 
     /// <summary>
     /// Tints, one for each of <see cref="Instances"/>, of an object whose maps have colours: what they add to its colour in linear light,

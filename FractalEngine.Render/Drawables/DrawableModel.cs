@@ -83,6 +83,9 @@ public sealed class DrawableModel
     /// <summary>Hierarchy that visible instances are selected from for each frame; null where all instances are drawn.</summary>
     public LodHierarchy? LodHierarchy { get; init; }
 
+    /// <summary>Whether instances come with the sides that are never seen, which normals of vertices tell apart.</summary>
+    internal bool HasCoveredSides { get; init; }
+
     /// <summary>Whether no part of a fractal hides another one's sky, so that nothing needs to be baked.</summary>
     internal bool HasOpenSky { get; init; }
 

@@ -56,4 +56,7 @@ internal enum MeshFeatures
 
     /// <summary>A gradient over the instances of a fractal decides about roughness, metal and glow.</summary>
     Graded = 32768,
+
+    /// <summary>Instances come with the sides that neighbours cover, which are not drawn.</summary>
+    CoveredSides = 65536,
 }

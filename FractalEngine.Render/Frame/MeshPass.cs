@@ -15,17 +15,13 @@ namespace FractalEngine.Render.Frame;
 /// <param name="scene">Scene that declares lights, sky and probe.</param>
 internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisposable
 {
-    private const int FeatureCombinations = 65536;
     private static readonly Colour WireframeColour = new(0.80, 0.83, 0.87);
 
     private string[] _lightSymbols = LightBlock.SymbolsOf(scene);
     private int _distantLights;
 
-    // Indexed by features. Each program is built when it is first needed.
-    private readonly MeshProgram?[] _programs = new MeshProgram?[FeatureCombinations];
-
-    // Number of the frame whose view each program has.
-    private readonly long[] _lastFrameOfProgram = new long[FeatureCombinations];
+    // Each program is built when it is first needed.
+    private readonly Dictionary<MeshFeatures, MeshProgram> _programs = [];
     private long _frameNumber;
     private (FrameView Frame, bool Wireframe, MeshFeatures Features)? _frameState;
 
@@ -65,9 +61,14 @@ internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisp
         var (frame, wireframe, frameFeatures) = _frameState ?? throw new InvalidOperationException("no frame was begun");
         var features = instanceFeatures | frameFeatures | (wireframe ? MeshFeatures.None : FeaturesOf(material))
             | (graded is null ? 0 : MeshFeatures.Graded | (graded.IsGlossy ? MeshFeatures.Glossy : 0));
-        var program = _programs[(int)features] ??= new(context, features, _lightSymbols);
+        if (!_programs.TryGetValue(features, out var program))
+        {
+            program = new(context, features, _lightSymbols);
+            _programs.Add(features, program);
+        }
+
         program.Use();
-        if (context.Resources.State.Filter.Update(ref _lastFrameOfProgram[(int)features], _frameNumber))
+        if (program.BeginFrame(_frameNumber))
         {
             program.View.Set(in frame);
             program.SetWireframe(wireframe, WireframeColour);
@@ -118,7 +119,7 @@ internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisp
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(_programs);
+    public void Dispose() => GlObject.DisposeAll([.. _programs.Values]);
 
     /// <summary>Programs know the kinds of shadows. These change when a view zooms away from a light, and hardly ever else.</summary>
     private void SetDistantLights(int distantLights)
@@ -129,8 +130,7 @@ internal sealed class MeshPass(RenderContext context, LoadedScene scene) : IDisp
         }
 
         Dispose();
-        Array.Clear(_programs);
-        Array.Clear(_lastFrameOfProgram);
+        _programs.Clear();
         _distantLights = distantLights;
         _lightSymbols = LightBlock.SymbolsOf(scene, distantLights);
     }

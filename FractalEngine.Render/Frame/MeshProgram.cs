@@ -17,6 +17,7 @@ internal sealed class MeshProgram : ShaderProgram
     private readonly RedundancyFilter _filter;
     private readonly MaterialUniforms _materialUniforms;
     private readonly int _sectionLocation;
+    private long _lastFrame;
     private bool? _lastWireframe;
     private SectionPlane? _lastSection;
     private CullFace? _lastInnerFace;
@@ -58,6 +59,9 @@ internal sealed class MeshProgram : ShaderProgram
     public static IEnumerable<string> SymbolsOf(MeshFeatures features) => Enum.GetValues<MeshFeatures>()
         .Where(feature => feature != MeshFeatures.None && features.HasFlag(feature))
         .Select(static feature => JsonNamingPolicy.SnakeCaseUpper.ConvertName(feature.ToString()));
+
+    /// <summary>Notes the number of a frame. Returns false where the program has the view of that frame already.</summary>
+    public bool BeginFrame(long number) => _filter.Update(ref _lastFrame, number);
 
     /// <summary>Sets the colour of wireframe edges, or lit surfaces. The program must be in use.</summary>
     public void SetWireframe(bool wireframe, Colour colour)

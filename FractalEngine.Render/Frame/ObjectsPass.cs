@@ -192,7 +192,9 @@ internal sealed class ObjectsPass(
             }
             else
             {
-                DrawBatches(i, drawsTransparent: false, FeaturesOf(i, culledFace));
+                DrawBatches(
+                    i, drawsTransparent: false,
+                    FeaturesOf(i, culledFace) | (HidesSides(i, culledFace, in frame) ? MeshFeatures.CoveredSides : MeshFeatures.None));
             }
         }
     }
@@ -276,6 +278,14 @@ internal sealed class ObjectsPass(
             ? GlState.BackFacesOf(windingSign)
             : CullFace.None;
     }
+
+    /// <summary>
+    /// Tells whether sides that neighbours cover may be left out. A neighbour that the near plane, a section or a probe leaves out covers
+    /// nothing.
+    /// </summary>
+    private bool HidesSides(int index, CullFace culledFace, in FrameView frame) =>
+        culledFace != CullFace.None && buffers.Culler.HasCoveredSides(index) && frame is { IsProbe: false, Section: null }
+        && frame.View.DeepZoom is null && frame.View.IsBeyondDepth(transforms.Bounds[index], frame.Near);
 
     /// <summary>Returns the face of an object's triangles that lies inside; none for open surfaces.</summary>
     private CullFace InnerFaceOf(int index) =>

@@ -66,6 +66,7 @@ internal static class ModelPreparation
             InstanceTints = MemoryMarshal.Cast<Vector128<float>, float>(tints.Select(static tint => tint.ToSingle()).ToArray()).ToArray(),
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
+            HasCoveredSides = hierarchy?.HasCoveredSides == true && HasNormalsAlongAxes(vertices),
             HasOpenSky = model is FractalModel && hierarchy?.HasOpenSky() == true,
             IsFlat = hierarchy?.IsFlat() == true,
             IsConvex = model is MeshModel && meshWindingSign > 0 && UnshadedSurface.IsConvex(mesh),
@@ -151,6 +152,9 @@ internal static class ModelPreparation
 
         return commonSign ?? 1;
     }
+
+    private static bool HasNormalsAlongAxes(float[] vertices) => vertices.Chunk(DrawableModel.FloatsPerVertex)
+        .All(static vertex => vertex[3..].Count(static component => component == 0) == 2);
 
     /// <summary>Returns the centre of a box, or the origin where it is infinite, as that of an unbounded fractal.</summary>
     private static Vector CentreOrOrigin(BoundingBox box) => box.Centre.IsFinite() ? box.Centre : Vector.Zero;

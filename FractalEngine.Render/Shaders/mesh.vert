@@ -1,6 +1,7 @@
 #version 330 core
 // One vertex of one instance: projected by map(v) = axes^-1 * (v - position), and lit by all lights on both faces, unless pixels are lit.
-// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS, SECTION and GRADED are defined where they apply.
+// PER_PIXEL, TEXTURED, GLOSSY, CAMERA_RELATIVE, FRONT_FACES_ONLY, VERTEX_COLOURS, SECTION, GRADED and
+// COVERED_SIDES are defined where they apply.
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -18,6 +19,9 @@ layout(location = 7) in vec3 vertexColour; // linear light
 #ifdef SKY_PARTS
 layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's sides see, towards x, y and z of the mesh
 layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
+#endif
+#ifdef COVERED_SIDES
+layout(location = 12) in vec2 coveredSides; // sum of 1, 2, 4 for sides towards x, y, z and 8, 16, 32 for the others; growth
 #endif
 layout(location = 10) in vec4 mapTint; // what maps add to the colour, linear light, and the share w that it keeps; else 0, 0, 0, 1
 layout(location = 11) in vec4 paletteColour; // of a gradient with a palette, linear light, and 0; else 0, 0, 0, 1
@@ -102,7 +106,11 @@ void main()
 #ifdef GRADED
     grade(tint);
 #endif
+#ifdef COVERED_SIDES
+    vec4 local = vec4(coveredSides.y * position, 1.0);
+#else
     vec4 local = vec4(position, 1.0);
+#endif
     vec3 inModel = vec3(dot(instanceRow0, local), dot(instanceRow1, local), dot(instanceRow2, local));
 #ifdef CAMERA_RELATIVE
     vec3 relative = inModel;
@@ -115,6 +123,12 @@ void main()
         viewPosition.xy * viewScale, depthScale.x * viewPosition.z + depthScale.y, depthScale.z * viewPosition.z + depthScale.w);
 #ifdef SECTION
     gl_ClipDistance[0] = dot(section.xyz, relative) + section.w;
+#endif
+
+#ifdef COVERED_SIDES
+    // All corners of a side that is never seen are one point, so that its triangles end here. Normals lie along the axes.
+    float side = dot(max(normal, 0.0), vec3(1.0, 2.0, 4.0)) + dot(max(-normal, 0.0), vec3(8.0, 16.0, 32.0));
+    gl_Position = (int(coveredSides.x) & int(side + 0.5)) != 0 ? vec4(0.0, 0.0, 0.0, 1.0) : gl_Position;
 #endif
 
     // The cofactor matrix maps the cross product of two edges to that of the mapped edges, also under skewed, mirrored and flat maps:

@@ -61,7 +61,7 @@ internal sealed class SceneCuller : IDisposable
                 var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks && !hierarchy.HasColours;
                 _visibleInstances[i] = new(
                     resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hierarchy.HasColours,
-                    shading?.Gradient.Palette is not null);
+                    shading?.Gradient.Palette is not null, model.HasCoveredSides);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = gradient?.Kind ?? GradientKind.None,
@@ -101,6 +101,9 @@ internal sealed class SceneCuller : IDisposable
 
     /// <summary>Returns true for an object whose instances of the last pass come with the parts of the sky that they see.</summary>
     public bool HasSkyParts(int index) => _hasSkyParts && SelectsInstances(index) && _culledObjects[_culledIndices[index]].HasSkyMasks;
+
+    /// <summary>Returns true for an object whose instances come with the sides that are never seen.</summary>
+    public bool HasCoveredSides(int index) => SelectsInstances(index) && _scene.Objects[index].Model.HasCoveredSides;
 
     /// <summary>Moves an object of the scene.</summary>
     /// <param name="index">Index of the object in the scene, from 0.</param>

@@ -13,6 +13,7 @@ internal sealed class VisibleInstances : IDisposable
 {
     private const int TintLocation = 5;
     private const int PaletteColourLocation = 11;
+    private const int CoveredSidesLocation = 12;
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
 
@@ -21,6 +22,7 @@ internal sealed class VisibleInstances : IDisposable
     private readonly GlBuffer? _skyParts;
     private readonly GlBuffer? _mapTints;
     private readonly GlBuffer? _paletteColours;
+    private readonly GlBuffer? _coveredSides;
     private readonly VertexArray _vertexArray;
     private readonly float[] _map = [];
     private int _instanceCount;
@@ -34,9 +36,10 @@ internal sealed class VisibleInstances : IDisposable
     /// <param name="hasSkyParts">Whether instances come with the parts of the sky that they see.</param>
     /// <param name="hasMapTints">Whether instances come with what maps mix into their colours.</param>
     /// <param name="hasPalette">Whether instances come with colours of a palette.</param>
+    /// <param name="hasCoveredSides">Whether instances come with the sides that are never seen.</param>
     public VisibleInstances(
         GlResources resources, string name, ModelBuffers model, bool isSingle, bool hasTints, bool hasSkyParts, bool hasMapTints,
-        bool hasPalette)
+        bool hasPalette, bool hasCoveredSides)
     {
         if (isSingle)
         {
@@ -64,6 +67,12 @@ internal sealed class VisibleInstances : IDisposable
         {
             _paletteColours = new(resources, $"palette colours of {name}", BufferTarget.ArrayBuffer);
             _vertexArray.Attribute(_paletteColours, PaletteColourLocation, 4, 4, 0, divisor: 1);
+        }
+
+        if (hasCoveredSides)
+        {
+            _coveredSides = new(resources, $"covered sides of {name}", BufferTarget.ArrayBuffer);
+            _vertexArray.Attribute(_coveredSides, CoveredSidesLocation, 2, 2, 0, divisor: 1);
         }
 
         if (hasSkyParts)
@@ -108,6 +117,11 @@ internal sealed class VisibleInstances : IDisposable
             Upload(_paletteColours, 4, static (set, index, chunk) => set.PaletteColours(index, chunk));
         }
 
+        if (_coveredSides is not null)
+        {
+            Upload(_coveredSides, 2, static (set, index, chunk) => set.CoveredSides(index, chunk));
+        }
+
         if (_skyParts is not null && hasSkyParts)
         {
             Upload(_skyParts, 6, static (set, index, chunk) => set.SkyParts(index, chunk));
@@ -139,7 +153,7 @@ internal sealed class VisibleInstances : IDisposable
 
     /// <inheritdoc/>
     public void Dispose() => GlObject.DisposeAll(
-        _instances is null ? null : _vertexArray, _tints, _mapTints, _paletteColours, _skyParts, _instances);
+        _instances is null ? null : _vertexArray, _tints, _mapTints, _paletteColours, _coveredSides, _skyParts, _instances);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

@@ -81,7 +81,7 @@ public sealed record RenderSettings
     /// </summary>
     public bool KeepsLight { get; init; }
 
-    /// <summary>Culls the back faces of closed meshes, where only front faces can be seen.</summary>
+    /// <summary>Culls faces that are not seen: back faces of closed meshes, and sides of boxes that others cover.</summary>
     public bool BackFaceCulling { get; init; } = true;
 
     /// <summary>Removes triangles without area when a mesh is prepared.</summary>

@@ -62,6 +62,9 @@ public sealed class LodHierarchy
     /// <summary>True where maps mix colours into what they make, so that instances have tints.</summary>
     public bool HasColours { get; internal init; }
 
+    /// <summary>True where instances come with the sides that are never seen, see <see cref="CoveredSides"/>.</summary>
+    public bool HasCoveredSides { get; internal init; }
+
     /// <summary>True where places decide what stands there, by chance or by size.</summary>
     internal bool HasPicks
     {

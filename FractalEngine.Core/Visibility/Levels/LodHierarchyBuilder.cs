@@ -26,9 +26,10 @@ internal static class LodHierarchyBuilder
         var hasColours = fractal.HasColours;
         var means = hasColours ? MeanTints.Compute(hierarchy).Zip(hierarchy.AllLevels.Items.ToArray()).ToDictionary(
             static pair => pair.Second, static pair => pair.First) : null;
-        return new(
-            hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks, means?[level])), hierarchy.Top.Level, mesh)
+        var nodes = hierarchy.AllLevels.Select(level => BuildNode(level, baseBox, hierarchy.HasPicks, means?[level]));
+        return new(nodes, hierarchy.Top.Level, mesh)
         {
+            HasCoveredSides = !hierarchy.HasPicks && CoveredSides.TryMark(nodes.Items, mesh),
             Source = fractal,
             HasColours = hasColours,
             HasPicks = hierarchy.HasPicks,

@@ -135,6 +135,12 @@ internal sealed class LodNode
     /// <summary>Number of maps of that set: children that are empty, or there already, have none.</summary>
     public int SetSize { get; }
 
+    /// <summary>
+    /// The sides of each child that siblings cover whole, and those that lie in a side of the node, as bits, see
+    /// <see cref="CoveredSides"/>; none where no side is known to be covered.
+    /// </summary>
+    public (byte Covered, byte Shared)[] ChildSides { get; set; } = [];
+
     /// <summary>What the children leave of each other's sky; null while that is not known.</summary>
     public SkyMasks? SkyMasks { get; set; }
 

@@ -1,0 +1,42 @@
+using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Scenes;
+using FractalEngine.Core.Scenes.Cameras;
+using FractalEngine.Core.Scenes.Lights;
+using FractalEngine.Core.Views;
+using FractalEngine.Render.Views;
+
+namespace FractalEngine.Tests.Render;
+
+/// <summary>Leaving out sides that neighbours cover shows in no image, wherever the camera and a section are.</summary>
+[Collection(GlTests.Name)]
+public sealed class CoveredSidesDrawingTests
+{
+    private const int Width = 240;
+    private const int Height = 180;
+
+    [SkippableTheory]
+    [InlineData(-2.0, 1.4, -2.6, null, 1)]
+    [InlineData(-2.0, 1.4, -2.6, null, -1)]
+    [InlineData(-2.0, 1.4, -2.6, 1 / 3.0, 1)]
+    [InlineData(-0.4, 0.6, -2.1, 1 / 27.0, 1)]
+    [InlineData(0.01, -0.02, -0.9, null, 1)]
+    [InlineData(-0.9, 0.88, -0.94, null, 1)]
+    public void Sponge_LooksAsWithAllSides(double x, double y, double z, double? section, int mirror)
+    {
+        var scene = new Scene
+        {
+            Lights = [new SunLight(new(0.4, -0.7, 0.6), Colour.White, 1), new AmbientLight(Colour.White, 0.3)],
+            Background = new(0.9, 0.1, 0.1),
+        };
+        var loaded = RenderScenes.Scene(scene, (RenderScenes.Menger(3), Transformation.Identity with { Scale = new(mirror, 1, 1) }, null));
+        var view = new View(CameraFraming.LookAt(new(x, y, z), new(0.1, 0, 0.05), Vector.J, 50, Handedness.Left), Projection.Perspective)
+        {
+            Section = section is { } offset ? SectionPlane.Of(new(0, 0, -1), offset) : null,
+        };
+        var settings = new RenderSettings { Samples = 4, Shadows = true };
+        ImageComparison.AssertSame(
+            RenderScenes.Draw(loaded, view, Width, Height, settings with { BackFaceCulling = false }),
+            RenderScenes.Draw(loaded, view, Width, Height, settings), "a sponge");
+    }
+}
