@@ -57,12 +57,7 @@ public static class GrammarSearch
     {
         var (set, factors, rest, tree) = grammar;
         var origin = factors.Count > 0 ? set.Elements[FactorCandidates.ChooseReference(set, rest)].Shape.Centroid : Vector.Zero;
-        var centroid = Vector.Zero;
-        foreach (var element in set.Elements)
-        {
-            centroid += element.Shape.Centroid / set.Count;
-        }
-
+        var centroid = set.Elements.Aggregate(Vector.Zero, (sum, element) => sum + (element.Shape.Centroid / set.Count));
         var (steps, toBase) = ChainLevels.Find(MapRows.Merge(factors, length), origin, centroid, length);
         var bases = tree?.Base ?? [.. rest];
         return new(

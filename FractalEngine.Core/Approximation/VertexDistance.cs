@@ -1,5 +1,5 @@
-using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation;
@@ -36,16 +36,7 @@ public static class VertexDistance
         return (SquaresOf(points, PointsOf(other), within).Count(double.IsFinite), points.Length);
     }
 
-    private static Vector[] PointsOf(Mesh mesh)
-    {
-        var points = new HashSet<Vector>();
-        foreach (var vertex in mesh.VertexIndices)
-        {
-            points.Add(mesh.Vertex(vertex));
-        }
-
-        return [.. points];
-    }
+    private static Vector[] PointsOf(Mesh mesh) => [.. mesh.VertexIndices.Select(mesh.Vertex).Distinct()];
 
     /// <summary>The squared distance of each point from the nearest other one, infinite where none is so near.</summary>
     private static IEnumerable<double> SquaresOf(Vector[] from, Vector[] to, double within)

@@ -113,12 +113,7 @@ public sealed class DeepZoomRayCaster : InstanceRayCaster
         for (var i = 0; i < roots.Length; i++)
         {
             var root = roots[i];
-            if (!casters.TryGetValue(root.State, out var caster))
-            {
-                caster = whole.At(root.State);
-                casters.Add(root.State, caster);
-            }
-
+            var caster = casters.TryGetValue(root.State, out var known) ? known : casters[root.State] = whole.At(root.State);
             if (!caster.Box.IsEmpty)
             {
                 instances.Add(new(i, new(caster), root.FrameToCamera, Widened(caster.Box.Transform(root.FrameToCamera))));

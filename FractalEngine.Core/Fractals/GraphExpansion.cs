@@ -9,23 +9,14 @@ namespace FractalEngine.Core.Fractals;
 /// Expands a graph into one list of instances, from the whole down: each part, and each level of its recursives, is expanded once for all
 /// maps that lead to it.
 /// </summary>
-internal sealed class GraphExpansion
+internal sealed class GraphExpansion(FractalGraph graph, long maxInstances)
 {
-    private readonly FractalGraph _graph;
-    private readonly long _maxInstances;
-
     // By parts: the maps that lead there, and whether there are instances at all.
-    private readonly List<AffineMap>[] _maps;
-    private readonly bool[] _hasInstances;
-    private long _products;
+    private readonly List<AffineMap>[] _maps =
+        [.. Enumerable.Range(0, graph.BaseMeshes.Length + graph.Parts.Length).Select(static _ => new List<AffineMap>())];
 
-    private GraphExpansion(FractalGraph graph, long maxInstances)
-    {
-        _graph = graph;
-        _maxInstances = maxInstances;
-        _maps = [.. Enumerable.Range(0, graph.BaseMeshes.Length + graph.Parts.Length).Select(static _ => new List<AffineMap>())];
-        _hasInstances = new bool[_maps.Length];
-    }
+    private readonly bool[] _hasInstances = new bool[graph.BaseMeshes.Length + graph.Parts.Length];
+    private long _products;
 
     /// <summary>Expands a graph into its distinct instances, in the order of the base meshes; one without faces has none.</summary>
     /// <param name="graph">The graph, which must be finite.</param>
@@ -37,23 +28,23 @@ internal sealed class GraphExpansion
 
     private ImmutableArray<MeshInstance> Expand()
     {
-        if (_graph.IsInfinite)
+        if (graph.IsInfinite)
         {
             throw LimitError();
         }
 
         for (var i = 0; i < _maps.Length; i++)
         {
-            _hasInstances[i] = i < _graph.BaseMeshes.Length
-                ? _graph.BaseMeshes[i].FaceCount > 0
-                : _graph.Parts[i - _graph.BaseMeshes.Length].EstimateInstances(part => new(_hasInstances[part] ? 1 : 0, 0)).Mantissa > 0;
+            _hasInstances[i] = i < graph.BaseMeshes.Length
+                ? graph.BaseMeshes[i].FaceCount > 0
+                : graph.Parts[i - graph.BaseMeshes.Length].EstimateInstances(part => new(_hasInstances[part] ? 1 : 0, 0)).Mantissa > 0;
         }
 
         Add(_maps.Length - 1, [AffineMap.Identity], AffineMap.Identity);
-        for (var i = _graph.Parts.Length - 1; i >= 0; i--)
+        for (var i = graph.Parts.Length - 1; i >= 0; i--)
         {
-            var maps = _maps[_graph.BaseMeshes.Length + i];
-            switch (_graph.Parts[i])
+            var maps = _maps[graph.BaseMeshes.Length + i];
+            switch (graph.Parts[i])
             {
                 case SteppedPart part when maps.Count > 0:
                     ExpandSteps(part, Distinct(maps));
@@ -64,13 +55,13 @@ internal sealed class GraphExpansion
             }
 
             // Of no more use, and perhaps large.
-            _maps[_graph.BaseMeshes.Length + i] = [];
+            _maps[graph.BaseMeshes.Length + i] = [];
         }
 
-        return [.. _graph.BaseMeshes.SelectMany((mesh, index) =>
+        return [.. graph.BaseMeshes.SelectMany((mesh, index) =>
         {
             var images = DistinctMaps.Images(mesh.UsedBounds, null, Math.Max(1, _maps[index].Count));
-            return _maps[index].All(map => images.TryAdd(map, _maxInstances))
+            return _maps[index].All(map => images.TryAdd(map, maxInstances))
                 ? images.Items.ToArray().Select(map => new MeshInstance(index, map, Tint.None))
                 : throw LimitError();
         })];
@@ -84,7 +75,7 @@ internal sealed class GraphExpansion
             if (set is not [var only] || only != AffineMap.Identity)
             {
                 Charge(maps.Length * (long)set.Length);
-                maps = Charged(DistinctMaps.Products(maps.Span, set.AsSpan(), null, _maxInstances));
+                maps = Charged(DistinctMaps.Products(maps.Span, set.AsSpan(), null, maxInstances));
             }
         }
 
@@ -157,7 +148,7 @@ internal sealed class GraphExpansion
     /// <summary>Removes maps that are the same for whatever comes after them.</summary>
     private ReadOnlyMemory<AffineMap> Distinct(List<AffineMap> maps) => maps.Count == 1
         ? maps.ToArray()
-        : Charged(DistinctMaps.Products(maps.ToArray(), [AffineMap.Identity], null, _maxInstances));
+        : Charged(DistinctMaps.Products(maps.ToArray(), [AffineMap.Identity], null, maxInstances));
 
     private ReadOnlyMemory<AffineMap> Charged(DistinctList<AffineMap>? list)
     {
@@ -168,12 +159,12 @@ internal sealed class GraphExpansion
     private void Charge(long products)
     {
         _products += products;
-        if (_products > FractalLimits.ComparedProducts.Value + (8 * _maxInstances))
+        if (_products > FractalLimits.ComparedProducts.Value + (8 * maxInstances))
         {
             throw LimitError();
         }
     }
 
     private FractalLimitException LimitError() => new(
-        $"the fractal has more than the limit of {DecimalText.FormatApproximately(_maxInstances)} instances");
+        $"the fractal has more than the limit of {DecimalText.FormatApproximately(maxInstances)} instances");
 }

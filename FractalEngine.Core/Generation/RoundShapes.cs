@@ -113,13 +113,8 @@ internal static class RoundShapes
         MeshCorner AddMidpoint(MeshCorner one, MeshCorner other)
         {
             var edge = (Math.Min(one.PositionIndex, other.PositionIndex), Math.Max(one.PositionIndex, other.PositionIndex));
-            if (!midpoints.TryGetValue(edge, out var midpoint))
-            {
-                midpoint = AddSphereVertex(mesh, mesh.Positions[one.PositionIndex] + mesh.Positions[other.PositionIndex]);
-                midpoints[edge] = midpoint;
-            }
-
-            return midpoint;
+            return midpoints.TryGetValue(edge, out var known) ? known : midpoints[edge] = AddSphereVertex(
+                mesh, mesh.Positions[one.PositionIndex] + mesh.Positions[other.PositionIndex]);
         }
     }
 

@@ -17,5 +17,14 @@ public abstract class SceneExport
     /// <param name="settings">Limits, and how much of the levels is kept.</param>
     /// <param name="stream">Receives the file from its beginning to its end; it is not read, and need not be able to seek.</param>
     /// <exception cref="FractalLimitException">The scene exceeds a limit. Nothing is written then.</exception>
-    public abstract ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream);
+    public ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    {
+        ArgumentNullException.ThrowIfNull(scene);
+        ArgumentNullException.ThrowIfNull(settings);
+        ArgumentNullException.ThrowIfNull(stream);
+        return WriteCore(scene, settings, stream);
+    }
+
+    /// <summary>Writes a scene, see <see cref="Write"/>.</summary>
+    protected abstract ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream);
 }

@@ -2,7 +2,7 @@ namespace FractalEngine.Parsing.Fdo;
 
 /// <summary>The parameters of a transformation function. Each is a number or a vector by its use.</summary>
 /// <param name="names">Their names, in order.</param>
-internal sealed class FractalParameters(IReadOnlyList<string> names)
+internal sealed class FractalParameters(List<string> names)
 {
     /// <summary>No parameters, as everywhere outside of functions.</summary>
     public static readonly FractalParameters None = new([]);
@@ -13,19 +13,7 @@ internal sealed class FractalParameters(IReadOnlyList<string> names)
     public int Count { get; } = names.Count;
 
     /// <summary>Returns the index of a parameter, or −1.</summary>
-    public int IndexOf(string name)
-    {
-        // Names are at most three.
-        for (var i = 0; i < names.Count; i++)
-        {
-            if (names[i] == name)
-            {
-                return i;
-            }
-        }
-
-        return -1;
-    }
+    public int IndexOf(string name) => names.IndexOf(name);
 
     /// <summary>Name of a parameter, as the function declares it.</summary>
     public string NameOf(int index) => names[index];

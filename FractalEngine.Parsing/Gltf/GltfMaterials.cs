@@ -21,16 +21,8 @@ internal sealed class GltfMaterials(string path)
 
     /// <summary>Converts a material. Its name is unique: those that are not are followed by a number.</summary>
     /// <returns>The material, and the channel whose coordinates its texture takes; null where it has none.</returns>
-    public (Material Material, MaterialChannel? Texture) Convert(SharpGLTF.Schema2.Material source)
-    {
-        if (!_materials.TryGetValue(source.LogicalIndex, out var known))
-        {
-            known = Create(source);
-            _materials.Add(source.LogicalIndex, known);
-        }
-
-        return known;
-    }
+    public (Material Material, MaterialChannel? Texture) Convert(SharpGLTF.Schema2.Material source) =>
+        _materials.TryGetValue(source.LogicalIndex, out var known) ? known : _materials[source.LogicalIndex] = Create(source);
 
     private (Material Material, MaterialChannel? Texture) Create(SharpGLTF.Schema2.Material source)
     {

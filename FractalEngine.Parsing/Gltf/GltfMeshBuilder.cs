@@ -1,6 +1,7 @@
 using System.Numerics;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Parsing.Meshes;
 using SharpGLTF.Schema2;
 using Mesh = FractalEngine.Core.Geometry.Mesh;
 using Vector = FractalEngine.Core.Maths.Vector;
@@ -11,13 +12,7 @@ namespace FractalEngine.Parsing.Gltf;
 /// <param name="materials">Converts the materials.</param>
 internal sealed class GltfMeshBuilder(GltfMaterials materials)
 {
-    private readonly List<double> _positions = [];
-    private readonly List<double> _normals = [];
-    private readonly List<double> _coordinates = [];
-    private readonly List<double> _colours = [];
-    private readonly List<int> _vertexIndices = [];
-    private readonly List<int> _normalIndices = [];
-    private readonly List<int> _coordinateIndices = [];
+    private readonly ObjBlockBuilder _elements = new();
     private readonly List<MeshGroup> _groups = [];
 
     /// <summary>Number of primitives that are points or lines.</summary>
@@ -45,111 +40,74 @@ internal sealed class GltfMeshBuilder(GltfMaterials materials)
     /// <summary>Returns the mesh with all that was added.</summary>
     public Mesh Complete()
     {
-        var mesh = new Mesh([.. _positions], [.. _vertexIndices]);
-        mesh = _colours.Count == 0 ? mesh : mesh.WithColours([.. _colours]);
-        mesh = _coordinates.Count == 0 ? mesh : mesh.WithTextureCoordinates([.. _coordinates], [.. _coordinateIndices]);
-        mesh = _normals.Count == 0 ? mesh : mesh.WithNormals([.. _normals], [.. _normalIndices]);
-        return mesh.WithGroups([.. _groups], []);
+        var block = _elements.ToBlock();
+        return ObjMeshAssembler.Assemble([block], block.Counts, threadCount: 1).WithGroups([.. _groups], []);
     }
 
     private void AddPrimitive(MeshPrimitive primitive, Accessor positions, string objectName, string meshName, AffineMap toWorld)
     {
         var (material, texture) = primitive.Material is { } declared ? materials.Convert(declared) : (null, null);
-        var firstVertex = _positions.Count / 3;
-        var firstFace = _vertexIndices.Count / 3;
-        foreach (var position in positions.AsVector3Array())
+        var before = _elements.Counts;
+        // Colours are linear in glTF.
+        var colours = primitive.GetVertexAccessor("COLOR_0")?.AsColorArray(1);
+        foreach (var (index, position) in positions.AsVector3Array().Index())
         {
-            Append(_positions, toWorld * ToVector(position));
+            if (colours?[index] is { } colour)
+            {
+                var (red, green, blue) = new Colour(colour.X, colour.Y, colour.Z).FromLinear();
+                _elements.AddColour([red, green, blue]);
+            }
+
+            _elements.AddPosition(toWorld * ToVector(position));
         }
 
-        var firstNormal = AddNormals(primitive, toWorld);
-        var firstCoordinate = AddCoordinates(primitive, texture);
-        AddColours(primitive, positions.Count);
+        var hasNormals = TryAddNormals(primitive, toWorld);
+        var hasCoordinates = TryAddCoordinates(primitive, texture);
         var isMirrored = toWorld.Linear.Determinant() < 0;
         foreach (var (a, b, c) in primitive.GetTriangleIndices())
         {
-            foreach (var corner in isMirrored ? (ReadOnlySpan<int>)[a, c, b] : [a, b, c])
-            {
-                if ((uint)corner >= (uint)positions.Count)
-                {
-                    throw new InvalidDataException(FormattableString.Invariant($"the index {corner} is that of no vertex"));
-                }
-
-                _vertexIndices.Add(firstVertex + corner);
-                _normalIndices.Add(firstNormal < 0 ? -1 : firstNormal + corner);
-                _coordinateIndices.Add(firstCoordinate < 0 ? -1 : firstCoordinate + corner);
-            }
+            _elements.AddPolygon([CornerAt(a), CornerAt(isMirrored ? c : b), CornerAt(isMirrored ? b : c)]);
         }
 
-        var faceCount = (_vertexIndices.Count / 3) - firstFace;
+        var faceCount = _elements.Counts.Faces - before.Faces;
         if (faceCount > 0)
         {
-            _groups.Add(new(firstFace, faceCount, objectName, meshName, material?.Name ?? "", 0));
+            _groups.Add(new(before.Faces, faceCount, objectName, meshName, material?.Name ?? "", 0));
         }
+
+        ObjCorner CornerAt(int index) => (uint)index < (uint)positions.Count
+            ? new(
+                before.Positions + index, hasCoordinates ? before.TextureCoordinates + index : ObjCorner.None,
+                hasNormals ? before.Normals + index : ObjCorner.None)
+            : throw new InvalidDataException(FormattableString.Invariant($"the index {index} is that of no vertex"));
     }
 
-    private int AddNormals(MeshPrimitive primitive, AffineMap toWorld)
+    private bool TryAddNormals(MeshPrimitive primitive, AffineMap toWorld)
     {
-        if (primitive.GetVertexAccessor("NORMAL") is not { } normals)
-        {
-            return -1;
-        }
-
-        var first = _normals.Count / 3;
         // The cofactors are a multiple of the inverse transpose.
         var cofactors = (toWorld.Linear.Determinant() < 0 ? -1 : 1) * toWorld.Linear.Cofactors();
-        foreach (var normal in normals.AsVector3Array())
+        var normals = primitive.GetVertexAccessor("NORMAL")?.AsVector3Array();
+        foreach (var normal in normals ?? Enumerable.Empty<Vector3>())
         {
-            Append(_normals, cofactors * ToVector(normal));
+            _elements.AddNormal(cofactors * ToVector(normal));
         }
 
-        return first;
+        return normals is not null;
     }
 
     /// <summary>Adds the coordinates that the texture of a material uses, with its transform. glTF has v downwards.</summary>
-    private int AddCoordinates(MeshPrimitive primitive, MaterialChannel? texture)
+    private bool TryAddCoordinates(MeshPrimitive primitive, MaterialChannel? texture)
     {
         var set = texture is { } channel ? channel.TextureTransform?.TextureCoordinateOverride ?? channel.TextureCoordinate : 0;
-        if (primitive.GetVertexAccessor(FormattableString.Invariant($"TEXCOORD_{set}")) is not { } coordinates)
-        {
-            return -1;
-        }
-
-        var first = _coordinates.Count / 2;
+        var coordinates = primitive.GetVertexAccessor(FormattableString.Invariant($"TEXCOORD_{set}"))?.AsVector2Array();
         var transform = texture?.TextureTransform?.Matrix ?? Matrix3x2.Identity;
-        foreach (var coordinate in coordinates.AsVector2Array())
+        foreach (var moved in (coordinates ?? Enumerable.Empty<Vector2>()).Select(coordinate => Vector2.Transform(coordinate, transform)))
         {
-            var (u, v) = (Vector2.Transform(coordinate, transform) is var moved ? moved.X : 0, moved.Y);
-            _coordinates.Add(u);
-            _coordinates.Add(1 - v);
+            _elements.AddTextureCoordinate(moved.X, 1 - moved.Y);
         }
 
-        return first;
+        return coordinates is not null;
     }
-
-    /// <summary>Adds colours, which are linear in glTF, once a primitive has any: all vertices have them then.</summary>
-    private void AddColours(MeshPrimitive primitive, int vertexCount)
-    {
-        if (primitive.GetVertexAccessor("COLOR_0") is { } colours)
-        {
-            AddWhite(_positions.Count - (3 * vertexCount));
-            foreach (var colour in colours.AsColorArray(1))
-            {
-                Append(_colours, new Colour(colour.X, colour.Y, colour.Z).FromLinear());
-            }
-        }
-
-        if (_colours.Count > 0)
-        {
-            AddWhite(_positions.Count);
-        }
-    }
-
-    private void AddWhite(int count) => _colours.AddRange(Enumerable.Repeat(1.0, Math.Max(0, count - _colours.Count)));
 
     private static Vector ToVector(Vector3 vector) => new(vector.X, vector.Y, vector.Z);
-
-    private static void Append(List<double> numbers, Vector vector) => numbers.AddRange(vector.X, vector.Y, vector.Z);
-
-    private static void Append(List<double> numbers, Colour colour) => numbers.AddRange(colour.Red, colour.Green, colour.Blue);
 }

@@ -85,7 +85,6 @@ public sealed class SceneMaterials
     /// <param name="tint">What maps mix into the colour.</param>
     public string NameOf(PlacedModel placed, int index, string group, Tint tint)
     {
-        ArgumentNullException.ThrowIfNull(placed);
         var mixed = ColourOf(placed, index, group, tint);
         var steps = Count < MaxFineColours ? 255 : 15;
         return AddUnique((placed.Model.Materials.GetValueOrDefault(group) ?? new("colour")) with

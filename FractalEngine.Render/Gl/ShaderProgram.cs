@@ -61,16 +61,8 @@ internal class ShaderProgram : GlObject
         GL.Uniform4(UniformLocation(uniform), (float)x, (float)y, (float)z, (float)w);
 
     /// <summary>Returns the location of a uniform; −1 where the compiler removed it, which GL ignores.</summary>
-    public int UniformLocation(string name)
-    {
-        if (!_locations.TryGetValue(name, out var location))
-        {
-            location = GL.GetUniformLocation(_name, name);
-            _locations.Add(name, location);
-        }
-
-        return location;
-    }
+    public int UniformLocation(string name) =>
+        _locations.TryGetValue(name, out var known) ? known : _locations[name] = GL.GetUniformLocation(_name, name);
 
     /// <summary>Connects a uniform block to a binding point.</summary>
     /// <exception cref="GlException">The program has no such block.</exception>

@@ -15,16 +15,12 @@ namespace FractalEngine.Render.Tracing;
 /// 1997, §9.2. Both ways see the light of the same face along the same ray, which is a line for objects that shine: a proxy would shine by
 /// other faces than the parts of a fractal that it stands for. What the sampler never chooses counts whole where a path meets it.
 /// </remarks>
-internal sealed class TracedAreaLights
+internal sealed class TracedAreaLights(AreaLightSampler sampler)
 {
     private const int MaxLayers = 64;
 
     // Digits of a sample's number.
     private const double UnitOfNumber = 1.0 / (1 << 24);
-
-    private readonly AreaLightSampler _sampler;
-
-    private TracedAreaLights(AreaLightSampler sampler) => _sampler = sampler;
 
     /// <summary>Prepares the emissive faces of a scene; null where none can be sampled.</summary>
     /// <param name="scene">With its models loaded.</param>
@@ -50,7 +46,7 @@ internal sealed class TracedAreaLights
         QueryContext context)
     {
         var (first, second) = samples.Next();
-        if (!_sampler.TrySample(
+        if (!sampler.TrySample(
             origin, surface.Normal, first + (second * UnitOfNumber), samples.Next(), context, out var sample))
         {
             return Vector.Zero;
@@ -89,7 +85,7 @@ internal sealed class TracedAreaLights
     {
         var cosine = Math.Abs(Vector.Dot(light.FaceNormal, toLight));
         return light.FaceIndex < 0 || cosine == 0 ? 0
-            : _sampler.DensityOf(origin, normal, context, light.FaceIndex) * (light.Position - origin).LengthSquared() / cosine;
+            : sampler.DensityOf(origin, normal, context, light.FaceIndex) * (light.Position - origin).LengthSquared() / cosine;
     }
 
     /// <summary>Follows a ray to the point of a face that was chosen.</summary>

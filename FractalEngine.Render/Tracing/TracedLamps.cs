@@ -12,19 +12,13 @@ namespace FractalEngine.Render.Tracing;
 /// Lights of a scene that have a surface: each is sampled at each surface of a path, and weighed against the chance that the path meets it
 /// by itself, as <see cref="TracedAreaLights"/> does. What is before them hides them; they hide what is behind them.
 /// </summary>
-internal sealed class TracedLamps
+internal sealed class TracedLamps(ImmutableArray<Emitter> emitters, Vector eye, double unit)
 {
     // Rounding may bring a lamp a little nearer than it was found.
     private const double Before = 1 - 1e-6;
 
-    private readonly ImmutableArray<Emitter> _emitters;
-    private readonly ImmutableArray<TracedLamp> _lamps;
-
-    private TracedLamps(ImmutableArray<Emitter> emitters, Vector eye, double unit)
-    {
-        _emitters = emitters;
-        _lamps = [.. emitters.Select(TracedLamp (one) => one.Radius > 0 ? new TracedBall(one, eye, unit) : new TracedQuad(one, eye, unit))];
-    }
+    private readonly ImmutableArray<TracedLamp> _lamps =
+        [.. emitters.Select(TracedLamp (one) => one.Radius > 0 ? new TracedBall(one, eye, unit) : new TracedQuad(one, eye, unit))];
 
     /// <summary>Prepares the lights of a scene that have a surface; null where there are none.</summary>
     public static TracedLamps? CreateOrNull(LoadedScene scene)
@@ -36,7 +30,7 @@ internal sealed class TracedLamps
     /// <summary>The same lights in another space.</summary>
     /// <param name="eye">Its origin, world space.</param>
     /// <param name="unit">Its unit, scene units.</param>
-    public TracedLamps RelativeTo(Vector eye, double unit) => new(_emitters, eye, unit);
+    public TracedLamps RelativeTo(Vector eye, double unit) => new(emitters, eye, unit);
 
     /// <summary>Finds the nearest lamp along a ray.</summary>
     /// <param name="ray">With a unit direction.</param>

@@ -10,12 +10,8 @@ namespace FractalEngine.Render.Tracing;
 /// The light of an image of the sky: one direction is chosen at each surface, and weighed against the chance that the path leads there by
 /// itself, as <see cref="TracedAreaLights"/> does with faces.
 /// </summary>
-internal sealed class TracedSky
+internal sealed class TracedSky(ImageRadiance sky)
 {
-    private readonly ImageRadiance _sky;
-
-    private TracedSky(ImageRadiance sky) => _sky = sky;
-
     /// <summary>Prepares the sky of a scene; null for one of colours, which paths find well, and for a black one.</summary>
     public static TracedSky? CreateOrNull(Scene scene) =>
         scene.Sky?.ToRadiance(scene.Handedness) is ImageRadiance { Image.Distribution.IsEmpty: false } sky ? new(sky) : null;
@@ -32,8 +28,8 @@ internal sealed class TracedSky
         in TracedSurface surface, Vector origin, Vector toEye, RayFootprint footprint, TracedScene scene, ref SampleSequence samples,
         QueryContext context)
     {
-        var (u, v) = _sky.Image.Distribution.Sample(samples.Next());
-        var direction = _sky.DirectionOf(u, v);
+        var (u, v) = sky.Image.Distribution.Sample(samples.Next());
+        var direction = sky.DirectionOf(u, v);
         var reflected = Reflection.Evaluate(in surface, toEye, direction);
         if (reflected == Vector.Zero)
         {
@@ -43,8 +39,8 @@ internal sealed class TracedSky
         var transmittance = scene.Transmittance(
             new(origin, direction), footprint, double.PositiveInfinity, context, out var passesGlass);
         // Paths find what is behind glass, which bends them.
-        var light = passesGlass ? Vector.Zero : transmittance * _sky.At(direction);
-        var density = _sky.Image.Distribution.Density(u, v) + Reflection.Density(in surface, toEye, direction);
+        var light = passesGlass ? Vector.Zero : transmittance * sky.At(direction);
+        var density = sky.Image.Distribution.Density(u, v) + Reflection.Density(in surface, toEye, direction);
         return reflected.Stretch(light) / (Math.PI * density);
     }
 
@@ -53,8 +49,8 @@ internal sealed class TracedSky
     /// <param name="reflectionDensity">How likely the last reflection chooses it, per solid angle.</param>
     public double WeightOf(Vector direction, double reflectionDensity)
     {
-        var (u, v) = _sky.PlaceOf(direction);
-        var density = _sky.Image.Distribution.Density(u, v);
+        var (u, v) = sky.PlaceOf(direction);
+        var density = sky.Image.Distribution.Density(u, v);
         return density > 0 ? reflectionDensity / (reflectionDensity + density) : 1;
     }
 }

@@ -1,7 +1,7 @@
-using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 using FractalEngine.Tests.Support;

@@ -1,12 +1,12 @@
 using System.Collections.Immutable;
 using FractalEngine.Benchmarks.Approximation.Unseen;
 using FractalEngine.Core.Approximation;
-using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Core.Approximation.Repetition;
 using FractalEngine.Core.Distances;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 using FractalEngine.Parsing;
 using FractalEngine.Parsing.Fdo.Writing;

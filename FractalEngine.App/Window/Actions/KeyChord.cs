@@ -66,15 +66,8 @@ internal readonly record struct KeyChord(Key Key, KeyModifiers Modifiers = KeyMo
 
     private static string NameOf(Key key)
     {
-        foreach (var (special, name) in SpecialNames)
-        {
-            if (special == key)
-            {
-                return name;
-            }
-        }
-
-        return key is >= Key.Digit0 and <= Key.Digit9 ? key.ToString()["Digit".Length..] : key.ToString();
+        var special = SpecialNames.FirstOrDefault(special => special.Key == key).Name;
+        return special ?? (key is >= Key.Digit0 and <= Key.Digit9 ? key.ToString()["Digit".Length..] : key.ToString());
     }
 
     /// <summary>Returns the key that a key of the keypad equals.</summary>

@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 
@@ -18,16 +19,10 @@ internal static class Remeshing
         {
             var (a, b) = (mesh.VertexIndices[corner], mesh.VertexIndices[Mesh.NextCorner(corner)]);
             var key = (Math.Min(a, b), Math.Max(a, b));
-            if (!facesAt.TryGetValue(key, out var faces))
-            {
-                facesAt.Add(key, faces = []);
-            }
-
-            faces.Add(corner / 3);
+            (CollectionsMarshal.GetValueRefOrAddDefault(facesAt, key, out _) ??= []).Add(corner / 3);
         }
 
         var joined = new DisjointSets();
-        joined.Reserve(mesh.FaceCount);
         joined.Reset(mesh.FaceCount);
         foreach (var faces in facesAt.Values.Where(faces => faces.Count == 2))
         {

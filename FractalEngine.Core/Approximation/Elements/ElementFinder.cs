@@ -27,48 +27,27 @@ internal static class ElementFinder
             connected.Join(mesh.VertexIndices[3 * face], mesh.VertexIndices[(3 * face) + 2]);
         }
 
-        var byRoot = new Dictionary<int, List<int>>();
-        var order = new List<List<int>>();
-        foreach (var face in faces)
-        {
-            var root = connected.RootOf(mesh.VertexIndices[3 * face]);
-            if (!byRoot.TryGetValue(root, out var list))
-            {
-                byRoot.Add(root, list = []);
-                order.Add(list);
-            }
-
-            list.Add(face);
-        }
-
-        return [.. order.Select(list => Create(mesh, representatives, list)).OfType<Element>()];
+        return [.. faces.GroupBy(face => connected.RootOf(mesh.VertexIndices[3 * face]))
+            .Select(group => Create(mesh, representatives, [.. group])).OfType<Element>()];
     }
 
-    private static Element? Create(Mesh mesh, int[] representatives, List<int> faces)
+    private static Element? Create(Mesh mesh, int[] representatives, int[] faces)
     {
         var vertices = new Dictionary<int, int>();
-        var points = new List<Vector>();
-        var corners = new int[3 * faces.Count];
+        var corners = new int[3 * faces.Length];
         for (var corner = 0; corner < corners.Length; corner++)
         {
             var vertex = representatives[mesh.VertexIndices[(3 * faces[corner / 3]) + (corner % 3)]];
-            if (!vertices.TryGetValue(vertex, out var local))
-            {
-                vertices.Add(vertex, local = points.Count);
-                points.Add(mesh.Vertex(vertex));
-            }
-
-            corners[corner] = local;
+            vertices.TryAdd(vertex, vertices.Count);
+            corners[corner] = vertices[vertex];
         }
 
-        return ElementShape.Create([.. points]) is { } shape ? new(shape, corners) : null;
+        return ElementShape.Create([.. vertices.Keys.Select(mesh.Vertex)]) is { } shape ? new(shape, corners) : null;
     }
 
     private static bool HasArea(Mesh mesh, int face)
     {
-        var a = mesh.Vertex(mesh.VertexIndices[3 * face]);
-        var b = mesh.Vertex(mesh.VertexIndices[(3 * face) + 1]);
-        var c = mesh.Vertex(mesh.VertexIndices[(3 * face) + 2]);
+        var (a, b, c) = mesh.Face(face);
         return Vector.Cross(b - a, c - a) != Vector.Zero;
     }
 }

@@ -63,18 +63,9 @@ internal sealed class ElementShape
     /// <param name="noise">How far vertices may be from a plane that they lie in, scene units.</param>
     public static ElementShape? Create(Vector[] points, double noise = 0)
     {
-        var centroid = Vector.Zero;
-        foreach (var point in points)
-        {
-            centroid += point / points.Length;
-        }
-
-        var covariance = default(Matrix);
-        foreach (var point in points)
-        {
-            covariance += Matrix.Outer(point - centroid, point - centroid) / points.Length;
-        }
-
+        var centroid = points.Aggregate(Vector.Zero, (sum, point) => sum + (point / points.Length));
+        var covariance = points.Aggregate(
+            default(Matrix), (sum, point) => sum + (Matrix.Outer(point - centroid, point - centroid) / points.Length));
         var trace = covariance.V1.X + covariance.V2.Y + covariance.V3.Z;
         if (!(trace > 0) || !double.IsNormal(trace))
         {

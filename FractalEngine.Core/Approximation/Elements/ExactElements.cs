@@ -1,3 +1,4 @@
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Elements;

@@ -3,20 +3,13 @@ using FractalEngine.Core.Maths;
 namespace FractalEngine.Core.Approximation.Grammars;
 
 /// <summary>Finds runs of a chain's factors that are levels of one recursion, also where two or three factors alternate.</summary>
-internal sealed class ChainLevels
+internal sealed class ChainLevels(List<MapFactor> factors, Vector centroid)
 {
     private const int MaxPeriod = 3;
 
-    private readonly Vector _centroid;
     private readonly List<GrammarStep> _steps = [];
     private AffineMap _toBase = AffineMap.Identity;
-    private List<MapFactor> _rest;
-
-    private ChainLevels(List<MapFactor> factors, Vector centroid)
-    {
-        _rest = factors;
-        _centroid = centroid;
-    }
+    private List<MapFactor> _rest = factors;
 
     /// <summary>
     /// Finds the steps of a chain, outermost first, and the map that takes what the chain was applied to, to what the steps are applied to.
@@ -104,7 +97,7 @@ internal sealed class ChainLevels
         }
 
         // The pivot p for which n times the map takes the centroid to the origin: p + Lⁿ·(centroid − p) = origin.
-        var pivot = -(free.Inverse() * (power * _centroid));
+        var pivot = -(free.Inverse() * (power * centroid));
         var centred = new AffineMap(map.Linear, pivot - (map.Linear * pivot));
         return CountBlocks(centred, period) == count ? centred : map;
     }

@@ -7,24 +7,19 @@ namespace FractalEngine.Core.Approximation.Grammars;
 /// condition s·h = g·s is linear in s; up to three pairs fix it, and the rest is verified.
 /// </summary>
 /// <remarks>The size of all that is mapped is about 1, around the origin, so that tolerances need no units.</remarks>
-internal sealed class Conjugation
+internal sealed class Conjugation(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs)
 {
     private const double Tolerance = 1e-7;
     private const int MaxSolutions = 2000;
 
-    private readonly List<AffineMap> _from;
-    private readonly List<(AffineMap Map, int Index)> _to;
-    private readonly (AffineMap From, AffineMap To)[] _pairs;
+    private readonly List<AffineMap> _from = from;
+    private readonly (AffineMap From, AffineMap To)[] _pairs = [.. pairs];
+    private readonly List<(AffineMap Map, int Index)> _to =
+        [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (map * symmetry, index)))];
+
     private AffineMap? _best;
     private double _bestOddity = double.PositiveInfinity;
     private int _solutions;
-
-    private Conjugation(List<AffineMap> from, MapFactor to, IEnumerable<(AffineMap From, AffineMap To)> pairs)
-    {
-        _from = from;
-        _to = [.. to.Symmetries.SelectMany(symmetry => to.Maps.Select((map, index) => (map * symmetry, index)))];
-        _pairs = [.. pairs];
-    }
 
     /// <summary>Finds the map, or null.</summary>
     /// <param name="from">H, with the identity first.</param>

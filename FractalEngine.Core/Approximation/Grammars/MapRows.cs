@@ -78,23 +78,11 @@ public static class MapRows
     /// <summary>The product of a row and a factor, with such symmetries that it is one row; null where there are none.</summary>
     private static List<AffineMap>? Multiply(List<AffineMap> row, MapFactor factor, double length)
     {
-        if (factor.Maps.Count > 2)
-        {
-            var product = row.SelectMany(outer => factor.Maps.Select(inner => outer * inner)).ToList();
-            return IsRow(product, length) ? product : null;
-        }
-
-        foreach (var symmetry in factor.Symmetries)
-        {
-            var inner = factor.Maps[1] * symmetry;
-            var product = row.SelectMany(outer => new[] { outer, outer * inner }).ToList();
-            if (IsRow(product, length))
-            {
-                return product;
-            }
-        }
-
-        return null;
+        IEnumerable<IEnumerable<AffineMap>> products = factor.Maps.Count > 2
+            ? [row.SelectMany(outer => factor.Maps.Select(inner => outer * inner))]
+            : factor.Symmetries.Select(symmetry => factor.Maps[1] * symmetry)
+                .Select(inner => row.SelectMany(outer => new[] { outer, outer * inner }));
+        return products.Select(static product => product.ToList()).FirstOrDefault(product => IsRow(product, length));
     }
 
     private static bool IsRow(List<AffineMap> maps, double length) =>

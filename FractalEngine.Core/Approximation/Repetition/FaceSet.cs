@@ -1,6 +1,6 @@
 using System.Runtime.InteropServices;
-using FractalEngine.Core.Approximation.Elements;
 using FractalEngine.Core.Geometry;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Repetition;

@@ -89,12 +89,7 @@ public static class MirrorSearch
     private static (Vector Normal, double Offset) FitPlane(TargetSurface target, MirrorPlane plane, Vector[] samples)
     {
         var reflection = plane.Reflection;
-        var images = new Vector[samples.Length];
-        for (var index = 0; index < samples.Length; index++)
-        {
-            images[index] = target.ClosestPoint(target.Measure(reflection * samples[index], 0));
-        }
-
+        var images = Array.ConvertAll(samples, sample => target.ClosestPoint(target.Measure(reflection * sample, 0)));
         var (mean, imageMean) = (Vector.Mean(samples), Vector.Mean(images));
         var products = default(Matrix);
         var size = 0.0;

@@ -48,31 +48,11 @@ internal sealed class ObjectBvhBuilder(ObjectBvhLeaf[] leaves)
         }
 
         // The group with the largest box is split until there are as many groups as children.
-        List<(Range Range, double Size)> groups = [(range, 0)];
-        while (groups.Count < ObjectBvhNode.Width && FindLargestGroup(groups) is >= 0 and var largest)
-        {
-            var (left, right) = Split(groups[largest].Range, depth);
-            groups[largest] = (left, BoxPartition.SizeOf(_partition.BoundsOf(left)));
-            groups.Add((right, BoxPartition.SizeOf(_partition.BoundsOf(right))));
-        }
-
-        return new ObjectBvhNode([.. groups.Select(group => BuildSubtree(group.Range, depth + 1))]);
+        var groups = _partition.Split(range, ObjectBvhNode.Width, enough: 1, group => Split(group, depth));
+        return new ObjectBvhNode([.. groups.Select(group => BuildSubtree(group, depth + 1))]);
     }
 
     /// <summary>Finds the group to split next; −1 where all are single objects.</summary>
-    private static int FindLargestGroup(List<(Range Range, double Size)> groups)
-    {
-        var largest = -1;
-        for (var i = 0; i < groups.Count; i++)
-        {
-            if (BoxPartition.CountOf(groups[i].Range) > 1 && (largest < 0 || groups[i].Size > groups[largest].Size))
-            {
-                largest = i;
-            }
-        }
-
-        return largest;
-    }
 
     private (Range Left, Range Right) Split(Range range, int depth)
     {

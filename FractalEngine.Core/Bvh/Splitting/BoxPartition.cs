@@ -20,8 +20,9 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
     /// <param name="range">The range to split.</param>
     /// <param name="maxRanges">Maximum number of ranges.</param>
     /// <param name="enough">Ranges of no more boxes are not split.</param>
+    /// <param name="splitOne">Splits the range with the largest box; null for <see cref="SplitInTwo"/>.</param>
     /// <remarks>Costs time in proportion to the number of boxes times the logarithm of the number of ranges.</remarks>
-    public List<Range> Split(Range range, int maxRanges, int enough)
+    public List<Range> Split(Range range, int maxRanges, int enough, Func<Range, (Range Left, Range Right)>? splitOne = null)
     {
         List<(Range Range, double Size)> parts = [(range, SizeOf(BoundsOf(range)))];
         while (parts.Count < maxRanges)
@@ -40,7 +41,7 @@ internal sealed class BoxPartition(BoundingBox[] boxes)
                 break;
             }
 
-            var (left, right) = SplitInTwo(parts[largest].Range);
+            var (left, right) = (splitOne ?? SplitInTwo)(parts[largest].Range);
             parts[largest] = (left, SizeOf(BoundsOf(left)));
             parts.Insert(largest + 1, (right, SizeOf(BoundsOf(right))));
         }

@@ -185,19 +185,9 @@ public sealed class RecursivePart : FractalPart
             foreach (var caller in Order)
             {
                 var recursive = Recursives[caller];
-                if (recursive.Choice is { } choice && choose is not null)
-                {
-                    values[caller] = choose([.. recursive.Calls.Select(call => ValueOf(call, levels))], choice, levels);
-                    continue;
-                }
-
-                var sum = zero;
-                foreach (var call in recursive.Calls)
-                {
-                    sum = add(sum, ValueOf(call, levels));
-                }
-
-                values[caller] = sum;
+                values[caller] = recursive.Choice is { } choice && choose is not null
+                    ? choose([.. recursive.Calls.Select(call => ValueOf(call, levels))], choice, levels)
+                    : recursive.Calls.Aggregate(zero, (sum, call) => add(sum, ValueOf(call, levels)));
             }
 
             yield return values;

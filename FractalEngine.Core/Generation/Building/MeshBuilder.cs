@@ -149,16 +149,8 @@ internal sealed class MeshBuilder
     /// <summary>Builds the named groups that have faces, in order.</summary>
     private ImmutableArray<MeshGroup> BuildGroups()
     {
-        var groups = ImmutableArray.CreateBuilder<MeshGroup>();
-        for (var i = 0; i < _groups.Count; i++)
-        {
-            var end = i + 1 < _groups.Count ? _groups[i + 1].FirstFace : Triangles.Count;
-            if (end > _groups[i].FirstFace)
-            {
-                groups.Add(new(_groups[i].FirstFace, end - _groups[i].FirstFace, "", _groups[i].Name, "", 0));
-            }
-        }
-
-        return groups.ToImmutable();
+        var ends = _groups.Skip(1).Select(static group => group.FirstFace).Append(Triangles.Count);
+        var groups = _groups.Zip(ends, static (group, end) => new MeshGroup(group.FirstFace, end - group.FirstFace, "", group.Name, "", 0));
+        return [.. groups.Where(static group => group.FaceCount > 0)];
     }
 }

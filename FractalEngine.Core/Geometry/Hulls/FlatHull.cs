@@ -42,13 +42,9 @@ internal static class FlatHull
             }
         }
 
-        var facets = new HullFacet[Math.Max(1, vertices.Count - 2)];
-        for (var i = 0; i < facets.Length; i++)
-        {
-            facets[i] = new(vertices[0], vertices[(i + 1) % vertices.Count], vertices[(i + 2) % vertices.Count]);
-        }
-
-        return new(vertices.ToArray(), planes.ToArray(), maxOutsideDistance, facets);
+        var facets = Enumerable.Range(1, Math.Max(1, vertices.Count - 2))
+            .Select(i => new HullFacet(vertices[0], vertices[i % vertices.Count], vertices[(i + 1) % vertices.Count]));
+        return new(vertices.ToArray(), planes.ToArray(), maxOutsideDistance, [.. facets]);
     }
 
     private static List<Vector> FindVertices(ReadOnlySpan<Vector> points, Vector along, Vector across, int maxVertices)

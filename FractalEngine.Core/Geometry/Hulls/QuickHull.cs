@@ -53,7 +53,7 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
             AssignToFacet(point, 0);
         }
 
-        while (_vertices.Count < maxVertices && FindHighest() is { FirstPoint: >= 0 } highest)
+        while (_vertices.Count < maxVertices && _facets.MaxBy(static facet => facet.FarthestHeight) is { FirstPoint: >= 0 } highest)
         {
             AddVertex(highest.FarthestPoint);
         }
@@ -69,14 +69,8 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
             }
         }
 
-        var vertices = new Vector[_vertices.Count];
-        var centre = Vector.Zero;
-        for (var i = 0; i < vertices.Length; i++)
-        {
-            vertices[i] = points[_vertices[i]];
-            centre += vertices[i] / vertices.Length;
-        }
-
+        Vector[] vertices = [.. _vertices.Select(vertex => points[vertex])];
+        var centre = vertices.Aggregate(Vector.Zero, (sum, vertex) => sum + (vertex / vertices.Length));
         foreach (var point in _isThin ? _insidePoints : [])
         {
             TrackInsidePoint(points[point], centre);
@@ -85,37 +79,11 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
         return new(vertices, MergePlanes(), _maxOutsideDistance, facets);
     }
 
-    /// <summary>The first facet that has a point farthest above it.</summary>
-    private Facet FindHighest()
-    {
-        var highest = _facets[0];
-        foreach (var facet in _facets)
-        {
-            highest = facet.FarthestHeight > highest.FarthestHeight ? facet : highest;
-        }
-
-        return highest;
-    }
-
     private void AddVertex(int apexIndex)
     {
         var apex = points[apexIndex];
-        var visible = new List<Facet>();
-        var keptCount = 0;
-        for (var i = 0; i < _facets.Count; i++)
-        {
-            var facet = _facets[i];
-            if (Vector.Dot(facet.Normal, apex) - facet.Offset > tolerance)
-            {
-                visible.Add(facet);
-            }
-            else
-            {
-                _facets[keptCount++] = facet;
-            }
-        }
-
-        _facets.RemoveRange(keptCount, _facets.Count - keptCount);
+        var visible = _facets.FindAll(IsVisible);
+        _facets.RemoveAll(IsVisible);
         var firstNew = _facets.Count;
         foreach (var facet in visible)
         {
@@ -125,17 +93,14 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
             AddFacetAtHorizon(facet.C, facet.A);
         }
 
+        bool IsVisible(Facet facet) => Vector.Dot(facet.Normal, apex) - facet.Offset > tolerance;
+
         void AddFacetAtHorizon(int start, int end)
         {
-            foreach (var facet in visible)
+            if (!visible.Exists(facet => facet.HasEdge(end, start)))
             {
-                if (facet.HasEdge(end, start))
-                {
-                    return;
-                }
+                _facets.Add(CreateFacet(start, end, apexIndex));
             }
-
-            _facets.Add(CreateFacet(start, end, apexIndex));
         }
 
         _vertices.Add(apexIndex);
@@ -210,12 +175,7 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
     /// </summary>
     private void TrackInsidePoint(Vector point, Vector centre)
     {
-        var exit = double.PositiveInfinity;
-        foreach (var facet in _facets)
-        {
-            exit = Math.Min(exit, ExitOf(facet));
-        }
-
+        var exit = _facets.Min(ExitOf);
         var outsideDistance = double.PositiveInfinity;
         foreach (var facet in _facets)
         {
@@ -244,13 +204,8 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
         foreach (var facet in _facets)
         {
             var area = Vector.Cross(points[facet.B] - points[facet.A], points[facet.C] - points[facet.A]).Length();
-            var match = 0;
-            while (match < planes.Count && !((planes[match].Normal - facet.Normal).MaxAbsComponent() < SamePlaneTolerance))
-            {
-                match++;
-            }
-
-            if (match == planes.Count)
+            var match = planes.FindIndex(plane => (plane.Normal - facet.Normal).MaxAbsComponent() < SamePlaneTolerance);
+            if (match < 0)
             {
                 planes.Add(new(facet.Normal, facet.Offset, area));
             }
@@ -263,21 +218,7 @@ internal sealed class QuickHull(Vector[] points, int pointCount, double toleranc
             }
         }
 
-        // Few planes: insertion keeps the order of equal areas.
-        var ordered = planes.ToArray();
-        for (var i = 1; i < ordered.Length; i++)
-        {
-            var plane = ordered[i];
-            var place = i;
-            for (; place > 0 && ordered[place - 1].DoubledArea < plane.DoubledArea; place--)
-            {
-                ordered[place] = ordered[place - 1];
-            }
-
-            ordered[place] = plane;
-        }
-
-        return ordered;
+        return [.. planes.OrderByDescending(static plane => plane.DoubledArea)];
     }
 
     /// <summary>A triangle of the hull with the points above it, which form a linked list.</summary>

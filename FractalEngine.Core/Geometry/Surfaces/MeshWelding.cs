@@ -59,7 +59,6 @@ public static class MeshWelding
     /// <returns>For each face the number of its side, from 0 and below that of the faces, [faces].</returns>
     public static int[] FindSides(Mesh mesh)
     {
-        ArgumentNullException.ThrowIfNull(mesh);
         var representatives = VertexWelding.FindRepresentatives(mesh);
         var sides = new DisjointSets();
         sides.Reset(mesh.FaceCount);
@@ -79,51 +78,25 @@ public static class MeshWelding
         return [.. Enumerable.Range(0, mesh.FaceCount).Select(sides.RootOf)];
     }
 
-    /// <summary>Finds for each vertex the first one within a tolerance, by the cells of a grid that its surroundings lie in.</summary>
+    /// <summary>Finds for each vertex an earlier one within a tolerance that stands for itself; else it does so.</summary>
     private static int[] FindRepresentatives(Mesh mesh, double tolerance, IProgress<double>? progress)
     {
-        var cells = new Dictionary<(long X, long Y, long Z), int>(mesh.VertexCount);
-        var representatives = new int[mesh.VertexCount];
-        // In tolerances from a vertex, so that the numbers of cells fit also far from the origin. The reciprocal of a tiny one is infinite.
-        var origin = mesh.VertexCount == 0 ? Vector.Zero : mesh.Vertex(0) / tolerance;
-        for (var vertex = 0; vertex < representatives.Length; vertex++)
+        Vector[] points = [.. Enumerable.Range(0, mesh.VertexCount).Select(mesh.Vertex)];
+        var grid = new PointGrid(points, tolerance, isEmpty: true);
+        var representatives = new int[points.Length];
+        for (var vertex = 0; vertex < points.Length; vertex++)
         {
-            var position = mesh.Vertex(vertex);
-            var scaled = (position / tolerance) - origin;
-            var (low, high) = (CellOf(scaled - Vector.One), CellOf(scaled + Vector.One));
-            representatives[vertex] = -1;
-            for (var x = low.X; x <= high.X; x++)
+            var known = grid.First(points[vertex]);
+            representatives[vertex] = known < 0 ? vertex : grid.PointOf(known);
+            if (known < 0)
             {
-                for (var y = low.Y; y <= high.Y; y++)
-                {
-                    for (var z = low.Z; z <= high.Z; z++)
-                    {
-                        if (representatives[vertex] < 0 && cells.TryGetValue((x, y, z), out var other)
-                            && (mesh.Vertex(other) - position).LengthSquared() <= tolerance * tolerance)
-                        {
-                            representatives[vertex] = other;
-                        }
-                    }
-                }
+                grid.Add(vertex);
             }
 
-            if (representatives[vertex] < 0)
-            {
-                representatives[vertex] = vertex;
-                cells.Add(CellOf(scaled), vertex);
-            }
-
-            progress?.Report(0.5 * (vertex + 1) / representatives.Length);
+            progress?.Report(0.5 * (vertex + 1) / points.Length);
         }
 
         return representatives;
-
-        // What shares a cell is the same: its diagonal is the largest distance.
-        static (long X, long Y, long Z) CellOf(Vector scaled)
-        {
-            var (x, y, z) = Math.Sqrt(3) * scaled;
-            return ((long)Math.Floor(x), (long)Math.Floor(y), (long)Math.Floor(z));
-        }
     }
 
     private static bool[] FindDoubleSides(

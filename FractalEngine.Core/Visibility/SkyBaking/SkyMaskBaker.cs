@@ -221,21 +221,12 @@ public sealed class SkyMaskBaker
 
     private static bool HasSameChildren(LodNode node1, LodNode node2)
     {
-        if (node1.ChildMaps.Length != node2.ChildMaps.Length)
-        {
-            return false;
-        }
-
-        for (var i = 0; i < node1.ChildMaps.Length; i++)
-        {
-            if (node1.ChildMaps[i].ToAffineMap() != node2.ChildMaps[i].ToAffineMap())
-            {
-                return false;
-            }
-        }
-
         var tolerance = 0.05 * node1.Box.Diagonal;
-        return (node1.Box.Minimum - node2.Box.Minimum).Length() < tolerance && (node1.Box.Maximum - node2.Box.Maximum).Length() < tolerance;
+        return MapsOf(node1).SequenceEqual(MapsOf(node2))
+            && (node1.Box.Minimum - node2.Box.Minimum).Length() < tolerance
+            && (node1.Box.Maximum - node2.Box.Maximum).Length() < tolerance;
+
+        static IEnumerable<AffineMap> MapsOf(LodNode node) => node.ChildMaps.Select(static map => map.ToAffineMap());
     }
 
     private SkyMasks Compute(LodNode node, long levels, bool isSpread, CancellationToken cancellation)

@@ -14,7 +14,7 @@ internal static class MaterialFileNames
         var start = 0;
         for (var i = 0; i <= names.Length; i++)
         {
-            var isEnd = i == names.Length || (names[i] is ' ' or '\t' && HasEnding(names.AsSpan(start, i - start)));
+            var isEnd = i == names.Length || (names[i] is ' ' or '\t' && HasEnding(names[start..i]));
             if (isEnd && names[start..i].Trim() is { Length: > 0 } name)
             {
                 yield return name.Replace("\\ ", " ", StringComparison.Ordinal);
@@ -23,16 +23,6 @@ internal static class MaterialFileNames
         }
     }
 
-    private static bool HasEnding(ReadOnlySpan<char> name)
-    {
-        foreach (var ending in Endings)
-        {
-            if (name.EndsWith(ending, StringComparison.OrdinalIgnoreCase))
-            {
-                return true;
-            }
-        }
-
-        return false;
-    }
+    private static bool HasEnding(string name) =>
+        Array.Exists(Endings, ending => name.EndsWith(ending, StringComparison.OrdinalIgnoreCase));
 }

@@ -19,9 +19,8 @@ public sealed class CsvExport : SceneExport
     public override string Ending => ".csv";
 
     /// <inheritdoc/>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(stream);
         var exported = ExportedScene.Of(scene, settings, ExportFrame.Unchanged.From(scene, settings), hasPaths: true);
         using var writer = new StreamWriter(stream, new UTF8Encoding(false), bufferSize: 1 << 16, leaveOpen: true);
         writer.Write($"{Header}\n");

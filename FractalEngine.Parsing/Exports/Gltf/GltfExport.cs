@@ -20,11 +20,8 @@ public sealed class GltfExport : SceneExport
     public override string Ending => ".glb";
 
     /// <inheritdoc/>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(scene);
-        ArgumentNullException.ThrowIfNull(settings);
-        ArgumentNullException.ThrowIfNull(stream);
         var frame = ExportFrame.Right.From(scene, settings);
         var exported = ExportedScene.Of(scene, settings, frame);
         var document = new GltfDocument();

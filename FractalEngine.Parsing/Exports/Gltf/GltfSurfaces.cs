@@ -15,16 +15,8 @@ internal sealed class GltfSurfaces(GltfDocument document)
 
     /// <summary>Adds a material, unless an equal one is there.</summary>
     /// <returns>Its index.</returns>
-    public int Add(Material material)
-    {
-        if (!_materials.TryGetValue(material, out var index))
-        {
-            index = document.Add("materials", Create(material));
-            _materials.Add(material, index);
-        }
-
-        return index;
-    }
+    public int Add(Material material) =>
+        _materials.TryGetValue(material, out var known) ? known : _materials[material] = document.Add("materials", Create(material));
 
     private JsonObject Create(Material material)
     {

@@ -15,9 +15,8 @@ public sealed class PlyExport : SceneExport
     public override string Ending => ".ply";
 
     /// <inheritdoc/>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(stream);
         var exported = ExportedScene.Of(scene, settings, ExportFrame.Right.From(scene, settings));
         var parts = exported.Parts.Select(static part => (Part: part, Vertices: new PlyVertices(part))).ToArray();
         var vertexCount = parts.Sum(static one => one.Part.Count * one.Vertices.Positions.Length);

@@ -16,9 +16,8 @@ public sealed class StlExport : SceneExport
     public override string Ending => ".stl";
 
     /// <inheritdoc/>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(stream);
         var frame = ExportFrame.Printing.From(scene, settings);
         var exported = ExportedScene.Of(scene, settings, frame);
         if (exported.FaceCount > uint.MaxValue)

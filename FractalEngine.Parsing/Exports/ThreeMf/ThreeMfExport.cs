@@ -32,11 +32,8 @@ public sealed class ThreeMfExport : SceneExport
 
     /// <inheritdoc/>
     /// <exception cref="FractalEngineException">A mesh is open, or a fractal is infinite or has too many different parts.</exception>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(scene);
-        ArgumentNullException.ThrowIfNull(settings);
-        ArgumentNullException.ThrowIfNull(stream);
         var isFlat = settings.IsFlat || settings.MaxInstances is not null;
         var losesTints = !isFlat && scene.Objects.Any(static placed => placed.HasTints);
         var frame = ExportFrame.Printing.From(scene, settings);

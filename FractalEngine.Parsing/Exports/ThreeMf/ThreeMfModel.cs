@@ -40,13 +40,8 @@ internal sealed class ThreeMfModel
         {
             var (map, isMirrored) = LevelGraph.Split(frame * placed.ObjectToWorld);
             var colour = _hasColours ? parts[index][0].ColourOf("", Tint.None) : (Colour?)null;
-            if (!_known.TryGetValue((placed.Model, colour, isMirrored), out var known))
-            {
-                known = Add(placed.Model, parts[index], isMirrored);
-                _known.Add((placed.Model, colour, isMirrored), known);
-            }
-
-            if (known is { } item)
+            var key = (placed.Model, colour, isMirrored);
+            if ((_known.TryGetValue(key, out var known) ? known : _known[key] = Add(placed.Model, parts[index], isMirrored)) is { } item)
             {
                 _items.Add((item, map));
             }

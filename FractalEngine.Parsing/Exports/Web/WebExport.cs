@@ -17,11 +17,8 @@ public sealed class WebExport : SceneExport
     public override bool IsStaged => true;
 
     /// <inheritdoc/>
-    public override ExportSummary Write(LoadedScene scene, ExportSettings settings, Stream stream)
+    protected override ExportSummary WriteCore(LoadedScene scene, ExportSettings settings, Stream stream)
     {
-        ArgumentNullException.ThrowIfNull(scene);
-        ArgumentNullException.ThrowIfNull(settings);
-        ArgumentNullException.ThrowIfNull(stream);
         var faces = scene.ByParts().Models.Sum(static model => (long)model.Mesh.FaceCount);
         if (faces > settings.MaxFaces)
         {

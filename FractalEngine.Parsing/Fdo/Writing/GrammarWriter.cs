@@ -143,12 +143,9 @@ internal sealed class GrammarWriter(double length, Func<string, Mesh, string> fi
 
     private string NameOf(AffineMap map)
     {
-        foreach (var (known, knownName) in _maps)
+        if (_maps.Find(known => MapRows.AreNear(known.Map, map, RoundingTolerance, length)) is { Name: { } knownName })
         {
-            if (MapRows.AreNear(known, map, RoundingTolerance, length))
-            {
-                return knownName + ".";
-            }
+            return knownName + ".";
         }
 
         var name = Invariant($"m{_maps.Count + 1}");

@@ -15,13 +15,9 @@ internal static class NumberText
 
     private static (double Value, string Text) Simplify(double number, double tolerance)
     {
-        for (var digits = 0; digits <= 4; digits++)
+        if (FirstRounded(0, 4) is { } decimalNumber)
         {
-            var rounded = Math.Round(number, digits) + 0.0;
-            if (Math.Abs(number - rounded) <= tolerance)
-            {
-                return (rounded, rounded.ToString("R", CultureInfo.InvariantCulture));
-            }
+            return WithText(decimalNumber);
         }
 
         for (var denominator = 3; denominator <= MaxDenominator; denominator++)
@@ -34,15 +30,12 @@ internal static class NumberText
             }
         }
 
-        for (var digits = 5; digits <= 15; digits++)
-        {
-            var rounded = Math.Round(number, digits);
-            if (Math.Abs(number - rounded) <= tolerance)
-            {
-                return (rounded, rounded.ToString("R", CultureInfo.InvariantCulture));
-            }
-        }
+        return WithText(FirstRounded(5, 15) ?? number);
 
-        return (number, number.ToString("R", CultureInfo.InvariantCulture));
+        double? FirstRounded(int minDigits, int maxDigits) => Enumerable.Range(minDigits, maxDigits + 1 - minDigits)
+            .Select(digits => (double?)(Math.Round(number, digits) + 0.0))
+            .FirstOrDefault(rounded => Math.Abs(number - rounded!.Value) <= tolerance);
+
+        static (double Value, string Text) WithText(double value) => (value, value.ToString("R", CultureInfo.InvariantCulture));
     }
 }

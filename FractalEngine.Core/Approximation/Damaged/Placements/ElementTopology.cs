@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Core.Approximation.Damaged.Placements;
@@ -21,12 +22,7 @@ internal sealed class ElementTopology
         {
             _degrees[corners[corner]]++;
             var edge = EdgeOf(corners[corner], corners[Mesh.NextCorner(corner)]);
-            if (!_facesAt.TryGetValue(edge, out var faces))
-            {
-                _facesAt.Add(edge, faces = []);
-            }
-
-            faces.Add(corner / 3);
+            (CollectionsMarshal.GetValueRefOrAddDefault(_facesAt, edge, out _) ??= []).Add(corner / 3);
         }
     }
 

@@ -1,3 +1,4 @@
+using System.Runtime.InteropServices;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged.Placements;
@@ -31,12 +32,7 @@ internal sealed class PlacementIndex(IReadOnlyList<ElementTemplate> templates, d
         var level = Math.ILogB(PlacedElement.SizeOf(placement));
         var p = Math.ScaleB(1, -level) * placement.Translation;
         var key = (elementClass, level, (long)Math.Floor(p.X), (long)Math.Floor(p.Y), (long)Math.Floor(p.Z));
-        if (!_cells.TryGetValue(key, out var list))
-        {
-            _cells.Add(key, list = []);
-        }
-
-        list.Add(_placements.Count);
+        (CollectionsMarshal.GetValueRefOrAddDefault(_cells, key, out _) ??= []).Add(_placements.Count);
         _placements.Add((elementClass, placement));
         _symmetryCounts.Add(templates[elementClass].CountSymmetries(PlacedElement.SizeOf(placement)));
         return _placements.Count - 1;

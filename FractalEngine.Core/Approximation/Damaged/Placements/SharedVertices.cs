@@ -1,4 +1,4 @@
-using FractalEngine.Core.Approximation.Elements;
+using FractalEngine.Core.Geometry.Surfaces;
 using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Core.Approximation.Damaged.Placements;

@@ -46,18 +46,9 @@ internal sealed class CallSearch(CallScene scene, CancellationToken cancellation
     }
 
     private T? Find<T>(Func<CallRule[], T?> describe)
-        where T : class
-    {
-        for (var discrepancies = 0; discrepancies <= MaxDiscrepancies && !IsExhausted; discrepancies++)
-        {
-            if (Explain([], discrepancies, describe) is { } found)
-            {
-                return found;
-            }
-        }
-
-        return null;
-    }
+        where T : class =>
+        Enumerable.Range(0, MaxDiscrepancies + 1).TakeWhile(_ => !IsExhausted)
+            .Select(discrepancies => Explain([], discrepancies, describe)).FirstOrDefault(static found => found is not null);
 
     private CallExpansion? Expand(CallRule[] rules, bool isWhole = false) => CallExpansion.Create(scene, rules, isWhole);
 
@@ -82,16 +73,8 @@ internal sealed class CallSearch(CallScene scene, CancellationToken cancellation
             return null;
         }
 
-        var choices = Choices(rules, expansion, scene.BySize[index]);
-        for (var choice = 0; choice < choices.Count && choice <= discrepancies; choice++)
-        {
-            if (Explain(choices[choice], discrepancies - choice, describe) is { } found)
-            {
-                return found;
-            }
-        }
-
-        return null;
+        return Choices(rules, expansion, scene.BySize[index]).Take(discrepancies + 1)
+            .Select((choice, place) => Explain(choice, discrepancies - place, describe)).FirstOrDefault(static found => found is not null);
     }
 
     /// <summary>All ways to explain a part by one more call, first those that explain most, and with fewest levels.</summary>

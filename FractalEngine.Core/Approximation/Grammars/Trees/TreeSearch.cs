@@ -37,18 +37,12 @@ internal sealed class TreeSearch(ElementGroup group, CancellationToken cancellat
         var whole = new ElementGroup(set, members);
         var classes = members.GroupBy(member => set.Elements[member].Class).Where(parts => parts.Count() > 2)
             .OrderByDescending(parts => parts.Count()).ThenBy(parts => parts.Key).Select(parts => parts.ToArray()).ToArray();
-        foreach (var parts in classes.Take(MaxClasses))
-        {
-            var grammar = new TreeSearch(whole, cancellation).Find(parts, isFull);
-            if (grammar is not null && (!isFull || grammar.IsFull))
-            {
-                return grammar;
-            }
-        }
-
+        var first = classes.Take(MaxClasses).Select(parts => new TreeSearch(whole, cancellation).Find(parts, isFull))
+            .FirstOrDefault(grammar => grammar is not null && (!isFull || grammar.IsFull));
         // What stands at all calls is larger than what stands at the ends.
-        return isFull ? null : classes.OrderByDescending(parts => parts.Max(part => set.Elements[part].Shape.Size)).Take(MaxClasses)
-            .Select(parts => CallSearch.Find(whole, parts, cancellation)).FirstOrDefault(grammar => grammar is not null);
+        return first is not null || isFull ? first
+            : classes.OrderByDescending(parts => parts.Max(part => set.Elements[part].Shape.Size)).Take(MaxClasses)
+                .Select(parts => CallSearch.Find(whole, parts, cancellation)).FirstOrDefault(grammar => grammar is not null);
     }
 
     private TreeGrammar? Find(int[] parts, bool isFull)

@@ -155,13 +155,8 @@ internal sealed class ChildInstanceBuilder(int baseCount)
             return known;
         }
 
-        var children = new ChildInstance[edges.Length];
-        for (var i = 0; i < children.Length; i++)
-        {
-            // Not looked for among those of other levels: that would take as much memory as they do.
-            children[i] = new(edges, i, 1);
-        }
-
+        // Not looked for among those of other levels: that would take as much memory as they do.
+        ChildInstance[] children = [.. Enumerable.Range(0, edges.Length).Select(i => new ChildInstance(edges, i, 1))];
         _wideLevels.Add(edges, children);
         return children;
     }

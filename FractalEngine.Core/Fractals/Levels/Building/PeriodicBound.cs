@@ -55,19 +55,8 @@ internal sealed class PeriodicBound(
     public long InductionLevel { get; } = topLevel + 1 + ((long)maxRoundsDown * period);
 
     /// <summary>Tells whether the bounds of the last two rounds differ little enough.</summary>
-    public bool HasConverged()
-    {
-        for (var phase = 0; phase < period; phase++)
-        {
-            var threshold = ConvergenceThreshold(phase);
-            if (!(RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), threshold) <= threshold))
-            {
-                return false;
-            }
-        }
-
-        return true;
-    }
+    public bool HasConverged() => Enumerable.Range(0, period).All(
+        phase => AreNear(FirstLevel + phase, FirstLevel + phase - period, ConvergenceThreshold(phase)));
 
     /// <summary>The place of a level in its round, from 0 at the bottom.</summary>
     public int PhaseOf(long level) => (int)((((level - FirstLevel) % period) + period) % period);
@@ -85,17 +74,10 @@ internal sealed class PeriodicBound(
     public BoundingVolume[]? TryProveInvariant(ChildInstance[][] children)
     {
         var coveredLevels = FindCoveredLevels(children);
-        for (var phase = 0; phase < period; phase++)
+        if (!Enumerable.Range(0, period).All(phase => ConvergenceThreshold(phase) is var threshold
+            && coveredLevels[phase].All(level => AreNear(level, FirstLevel + phase, threshold))))
         {
-            var threshold = ConvergenceThreshold(phase);
-            var lastVolume = volumeAt(FirstLevel + phase);
-            foreach (var level in coveredLevels[phase])
-            {
-                if (!(RelativeChange(volumeAt(level), lastVolume, threshold) <= threshold))
-                {
-                    return null;
-                }
-            }
+            return null;
         }
 
         var volumesWithMargins = WithInvariantMargins(
@@ -126,6 +108,9 @@ internal sealed class PeriodicBound(
         var box = boxes.Aggregate(BoundingBox.Union);
         return box.IsEmpty ? box : BoundingVolume.Inflate(box, (fraction * box.Diagonal) + (RoundingErrors.Chain * Magnitude(box)));
     }
+
+    private bool AreNear(long level1, long level2, double threshold) =>
+        RelativeChange(volumeAt(level1), volumeAt(level2), threshold) <= threshold;
 
     /// <summary>
     /// Computes the change of bounds as a part of their size. Hulls that stand for many points change by up to their margins anyway.
@@ -198,17 +183,8 @@ internal sealed class PeriodicBound(
         return Math.Max(ConvergenceTolerance, Math.Min(1, toleranceFactor * MarginTolerance) * minRelativeMargin);
     }
 
-    private double MaxRelativeChange()
-    {
-        var maxChange = 0.0;
-        for (var phase = 0; phase < period; phase++)
-        {
-            var change = RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), double.PositiveInfinity);
-            maxChange = Math.Max(maxChange, change);
-        }
-
-        return maxChange;
-    }
+    private double MaxRelativeChange() => Enumerable.Range(0, period).Aggregate(0.0, (change, phase) => Math.Max(
+        change, RelativeChange(volumeAt(FirstLevel + phase), volumeAt(FirstLevel + phase - period), double.PositiveInfinity)));
 
     /// <summary>
     /// Lists the levels that the bounds of each phase must contain: that of the last round, and lower ones that have parents in the first

@@ -135,18 +135,10 @@ internal sealed class AreaLightModel
         }
     }
 
-    private AreaLightNode? NodeAt(long level)
-    {
-        if (!_nodes.TryGetValue(level, out var node))
-        {
-            node = _hierarchy!.MapSetAt(level)?.Pick is { } pick ? CreateMean(pick, level)
-                : _hierarchy.FindOrNull(level) is { } subFractal ? Create(subFractal, level)
-                : null;
-            _nodes[level] = node;
-        }
-
-        return node;
-    }
+    private AreaLightNode? NodeAt(long level) => _nodes.TryGetValue(level, out var known) ? known
+        : _nodes[level] = _hierarchy!.MapSetAt(level)?.Pick is { } pick ? CreateMean(pick, level)
+        : _hierarchy.FindOrNull(level) is { } subFractal ? Create(subFractal, level)
+        : null;
 
     private AreaLightNode? Create(SubFractal subFractal, long level)
     {

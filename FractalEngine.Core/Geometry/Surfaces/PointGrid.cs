@@ -1,6 +1,6 @@
 using FractalEngine.Core.Maths;
 
-namespace FractalEngine.Core.Approximation.Elements;
+namespace FractalEngine.Core.Geometry.Surfaces;
 
 /// <summary>Finds the points within a fixed tolerance of a position, by hashing of grid cells.</summary>
 /// <remarks>
@@ -14,23 +14,28 @@ internal sealed class PointGrid
     private readonly List<(int Point, int Next, long Cell)> _entries;
     private readonly int[] _heads;
     private readonly IReadOnlyList<Vector> _points;
-    private readonly double _scale;
+    private readonly Vector _origin;
+    // The reciprocal of a tiny one is infinite.
+    private readonly double _cellSize;
     private readonly double _tolerance;
 
     /// <summary>Stores points by their index.</summary>
     /// <param name="points">Scene units; must not change afterwards.</param>
     /// <param name="tolerance">Largest distance at which a point is found, above 0.</param>
-    public PointGrid(IReadOnlyList<Vector> points, double tolerance)
+    /// <param name="isEmpty">Whether only those points are found that are added afterwards.</param>
+    public PointGrid(IReadOnlyList<Vector> points, double tolerance, bool isEmpty = false)
     {
         _points = points;
         _tolerance = tolerance;
-        _scale = CellsPerTolerance / tolerance;
+        _cellSize = tolerance / CellsPerTolerance;
+        // So that the numbers of cells fit also far from the origin.
+        _origin = points.Count == 0 ? Vector.Zero : points[0] / _cellSize;
         _entries = new(points.Count);
         _heads = new int[(int)System.Numerics.BitOperations.RoundUpToPowerOf2((uint)Math.Max(16, points.Count))];
         Array.Fill(_heads, -1);
-        for (var point = 0; point < points.Count; point++)
+        for (var point = 0; point < points.Count && !isEmpty; point++)
         {
-            Insert(point);
+            Add(point);
         }
     }
 
@@ -53,9 +58,11 @@ internal sealed class PointGrid
         ^ ((long)Math.Floor(y) * 19349663L * 0x517CC1B7L)
         ^ ((long)Math.Floor(z) * 83492791L));
 
-    private void Insert(int point)
+    /// <summary>Stores one of the points, so that it is found.</summary>
+    /// <param name="point">Its index.</param>
+    public void Add(int point)
     {
-        var p = _scale * _points[point];
+        var p = (_points[point] / _cellSize) - _origin;
         const double Reach = 1.001 * CellsPerTolerance;
         var cells = (Span<long>)stackalloc long[8];
         var count = 0;
@@ -89,7 +96,11 @@ internal sealed class PointGrid
         return -1;
     }
 
-    private long CellOf(Vector position) => Hash(_scale * position.X, _scale * position.Y, _scale * position.Z);
+    private long CellOf(Vector position)
+    {
+        var (x, y, z) = (position / _cellSize) - _origin;
+        return Hash(x, y, z);
+    }
 
     private int Bucket(long cell) => (int)((ulong)(cell * unchecked((long)0x9E3779B97F4A7C15UL)) >> 33) & (_heads.Length - 1);
 }
