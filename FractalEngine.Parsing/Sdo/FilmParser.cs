@@ -51,8 +51,8 @@ public abstract class FilmParser : SceneObjectParser
     private bool ParseCameraKey(Cursor cursor, double time, out FilmKey key, out Cursor rest)
     {
         key = default!;
-        // A number may have the name of the camera.
-        if (!ParseKeyword(cursor, "c", out rest) || rest.Current == '=' || !ParseCamera(rest, out var camera, out var target, out rest))
+        // Where this fails, a number may have the name of the camera.
+        if (!ParseKeyword(cursor, "c", out rest) || !ParseCamera(rest, out var camera, out var target, out rest))
         {
             return false;
         }

@@ -49,6 +49,17 @@ public sealed class TracedAnimationTests : IDisposable
             AppProcess.Run(_folder.Path, ["animate", "scene.sdo", "--path", "cameras.txt", .. Traced, "--output", "f.png"]));
     }
 
+    /// <summary>The last frame leads on to the first: of two, it shows the other side.</summary>
+    [Fact]
+    public void Turntable_OfTwoFrames_EndsOnTheOtherSide()
+    {
+        _folder.Write(
+            "two.sdo", "o \"cube.obj\" # colour (1, 0, 0)\no \"cube.obj\" ((2, 0, 0), #, #) colour (0, 1, 0)\nc (1, 0, -5) # 60\n");
+        Animate("two.sdo", "--turntable");
+        var difference = Pixels("f-0001.png").Zip(Pixels("f-0002.png")).Average(static pair => Math.Abs(pair.First - pair.Second));
+        Assert.True(difference > 2, $"{difference}");
+    }
+
     [Fact]
     public void Turntable_Traced_BeginsWithTheStillImageAndSharesItsSeed()
     {

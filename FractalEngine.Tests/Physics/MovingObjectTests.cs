@@ -331,6 +331,12 @@ public class MovingObjectTests
             Near.Equal(new(1, height, 0), motion.PositionAt(start, time), 1e-12);
         }
 
+        // At first towards where the path begins.
+        foreach (var (time, height) in ((double, double)[])[(0.25, 0.5), (0.5, 0), (1, 1), (2, 3), (3, 1), (30, 1)])
+        {
+            Near.Equal(new(1, height, 0), (motion with { Velocity = new(0, -2, 0) }).PositionAt(start, time), 1e-12);
+        }
+
         Assert.Null(motion.FindFault(start));
         Assert.Equal("the object's position must lie on the path, between its ends", motion.FindFault(new(0, 1, 0)));
         Assert.Equal("the velocity must lead along the path", (motion with { Velocity = new(1, 1, 0) }).FindFault(start));

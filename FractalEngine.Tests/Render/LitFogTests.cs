@@ -6,6 +6,7 @@ using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
 using FractalEngine.Render;
+using FractalEngine.Render.Lights;
 using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Tracing;
 using FractalEngine.Render.Views;
@@ -27,6 +28,16 @@ public sealed class LitFogTests
     // Over the way at the depths from 2 to 3.5; and behind the eye, where it shades nothing.
     private static readonly Transformation Roof = new(new(0.1, 0.6, 2.75), Vector.Zero, new(1, 0.1, 0.75));
     private static readonly Transformation Behind = RenderScenes.TranslatedTo(0, 0, -9);
+
+    /// <summary>Haze without a colour hides what is far before a background, which is shown as it is declared.</summary>
+    [Fact]
+    public void Colour_OfHazeBeforeABackground_IsShownAsThat()
+    {
+        var scene = new Scene { Fog = new(1), Background = new(0.2, 0.4, 0.6), Exposure = 2, Tone = Tone.Filmic };
+        var (red, green, blue) = DisplayTransform.Of(scene).ToSrgb(LightBlock.FogColour(scene, Colour.White));
+        // The curve is inverted by halving.
+        Near.Equal(new Vector(0.2, 0.4, 0.6), new(red, green, blue), 1e-6);
+    }
 
     [Theory]
     [InlineData(0)]

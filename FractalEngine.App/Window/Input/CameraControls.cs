@@ -76,7 +76,7 @@ internal sealed class CameraControls(FlyingCamera camera)
                 _draggedButton = pressed.Button;
                 _modifiers = pressed.Modifiers;
                 break;
-            case MouseReleased:
+            case MouseReleased or FocusLost:
                 _draggedButton = null;
                 break;
             case MouseMoved moved when _draggedButton is { } button:
@@ -84,10 +84,6 @@ internal sealed class CameraControls(FlyingCamera camera)
                 break;
             case WheelTurned wheel:
                 ZoomToPointer(Math.Pow(ZoomPerNotch, wheel.Notches));
-                break;
-            case FocusLost:
-                _draggedButton = null;
-                _modifiers = KeyModifiers.None;
                 break;
         }
 

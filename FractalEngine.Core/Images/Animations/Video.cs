@@ -16,7 +16,6 @@ internal sealed class Video : AnimationOutput
     private readonly string _unfinishedPath;
     private readonly Process _encoder;
     private readonly Task<string> _messages;
-    private bool _isComplete;
 
     /// <summary>Starts the program that encodes the video.</summary>
     /// <param name="path">Path of the video, whose ending chooses the format.</param>
@@ -80,7 +79,6 @@ internal sealed class Video : AnimationOutput
             throw Failure();
         }
 
-        _isComplete = true;
         Save(stream =>
         {
             using var video = File.OpenRead(_unfinishedPath);
@@ -96,7 +94,7 @@ internal sealed class Video : AnimationOutput
             return;
         }
 
-        if (!_isComplete && !_encoder.HasExited)
+        if (!_encoder.HasExited)
         {
             _encoder.Kill();
             _encoder.WaitForExit();

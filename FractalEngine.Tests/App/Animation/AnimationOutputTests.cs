@@ -41,6 +41,16 @@ public sealed class AnimationOutputTests : IDisposable
     public void Files_OfNumberedImages_RefusesEachThatIsRead(string read, bool isRefused) =>
         CheckProtection("f.png", read, isRefused);
 
+    /// <summary>The highest number counts, also where an earlier animation had fewer digits.</summary>
+    [Fact]
+    public void FindNumbered_OfNamesOfDifferentLengths_EndsWithTheHighestNumber()
+    {
+        _folder.Write("f-9999.png", "");
+        _folder.Write("f-10000.png", "");
+        var found = AnimationOutput.FindNumbered(_folder["f.png"]);
+        Assert.Equal((10_000, _folder["f-10000.png"]), (found.Count, found[^1]));
+    }
+
     [Theory]
     [InlineData("f.apng", true)]
     [InlineData("g.apng", false)]

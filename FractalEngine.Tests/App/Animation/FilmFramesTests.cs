@@ -1,6 +1,7 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
+using FractalEngine.Tests.Images;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Animation;
@@ -101,6 +102,45 @@ public sealed class FilmFramesTests : DrawingCommandTests
         }
     }
 
+    /// <summary>A white plate of light 1 is as bright as it is opaque, and so is the mean of images in which it moves.</summary>
+    [SkippableFact]
+    public void Shutter_BeforeATransparentBackground_TakesTheMeanOfOpacityToo()
+    {
+        Display.Require();
+        Folder.Write(
+            "plate.sdo",
+            """
+            projection orthographic 2
+            light ambient (1, 1, 1)
+            o "cube.obj" ((0.0625, 0, 0), #, (3, 8, 1)) colour (1, 1, 1)
+            film 1
+            at 0 c (0, 0, -5) # 60
+            at 1 c (2, 0, -5) # 60
+
+            """);
+        var (exitCode, _, error) = Run(
+            "animate", "plate.sdo", "--fps", "1", "--shutter", "1", "--gather", "16", "--resolution", "64x16", "--no-ambient-occlusion",
+            "--no-shadows", "--background", "transparent", "--output", "f.exr");
+        Assert.True(exitCode == 0, error);
+        var image = new PlainExr(File.ReadAllBytes(Folder["f-0001.exr"]));
+        Assert.Contains(image["A"], static opacity => opacity is > 0.2f and < 0.8f);
+        // Rounded to numbers of 16 bits.
+        Assert.All(image["A"].Zip(image["R"]), static pair => Assert.Equal(pair.First, pair.Second, 0.002f));
+    }
+
+    /// <summary>Layers show the numbers of a frame's own time, as its light does.</summary>
+    [SkippableFact]
+    public void Animate_LayersOfAFilm_AreThoseOfStillImages()
+    {
+        Display.Require();
+        string[] how = ["--resolution", "24x16", "--layers", "depth"];
+        var (exitCode, _, error) = Run(["animate", "film.sdo", .. how, "--fps", "4", "--output", "f.exr"]);
+        Assert.True(exitCode == 0, error);
+        (exitCode, _, error) = Run(["render", "film.sdo", .. how, "--time", "0.75", "--output", "a.exr"]);
+        Assert.True(exitCode == 0, error);
+        Assert.Equal(File.ReadAllBytes(Folder["a.exr"]), File.ReadAllBytes(Folder["f-0004.exr"]));
+    }
+
     [Fact]
     public void Mean_OfImages_IsTakenInLightAndByOpacity()
     {
@@ -123,6 +163,9 @@ public sealed class FilmFramesTests : DrawingCommandTests
         double difference = Still("still.sdo", "--time", "0", "--trace", "16", "--no-denoise").Zip(blurred)
             .Average(static pair => Math.Abs(pair.First - pair.Second));
         Assert.InRange(difference, 0, 3);
+        // No image has fewer than one.
+        Animate("still.sdo", "--frames", "1", "--shutter", "0.5", "--trace", "2", "--no-denoise");
+        Assert.Equal(blurred, Pixels("f-0001.png"));
     }
 
     [Theory]

@@ -21,6 +21,12 @@ public sealed class ExportFormatTests : IDisposable
     public void Weld_OfASpongeOfCubes_ClosesIt(string ending, string told) =>
         Assert.StartsWith($"wrote out.{ending}: {told}", Export(0, ending, "menger-3", "--weld"), StringComparison.Ordinal);
 
+    /// <summary>What is welded is one mesh, whatever number of instances it was made of.</summary>
+    [Fact]
+    public void Weld_OfTheLargestInstances_IsOneMesh() => Assert.StartsWith(
+        "wrote out.3mf: 1 object for 36,096 faces, closed, ", Export(0, "3mf", "menger-3", "--weld", "--instances", "8000"),
+        StringComparison.Ordinal);
+
     /// <summary>What a format can't hold is told, a line each; welding loses more.</summary>
     [Theory]
     [InlineData("ply", "textures are not written", "roughness, metal and glow of gradients are not written")]

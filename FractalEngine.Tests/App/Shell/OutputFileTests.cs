@@ -100,6 +100,19 @@ public sealed class OutputFileTests : IDisposable
         Assert.Equal(SampleFiles.Cube, File.ReadAllText(_folder["cube.obj"]));
     }
 
+    [Fact]
+    public void Approximate_WithAnImageOntoATextureThatWasRead_IsRefused()
+    {
+        _folder.Write("m.mtl", "newmtl A\nmap_Kd tiles.png\n");
+        _folder.Write("a.obj", "mtllib m.mtl\nusemtl A\n" + SampleFiles.Cube);
+        var image = File.ReadAllBytes(Repository.Full("assets/models/crate.png"));
+        File.WriteAllBytes(_folder["tiles.png"], image);
+        var (exitCode, _, error) = AppProcess.Run(_folder.Path, "approximate", "a.obj", "--output", "a.fdo", "--image", "tiles.png");
+        Assert.Equal((2, "error: tiles.png is one of the files that are read, and is not overwritten"), (exitCode, error.Trim()));
+        Assert.Equal(image, File.ReadAllBytes(_folder["tiles.png"]));
+        Assert.False(File.Exists(_folder["a.fdo"]));
+    }
+
     [SkippableFact]
     public void Export_OntoAFileThatWasReadThroughALinkedFolder_IsRefused()
     {

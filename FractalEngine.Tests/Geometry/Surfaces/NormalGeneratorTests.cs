@@ -107,6 +107,26 @@ public sealed class NormalGeneratorTests
         AssertNear(-Vector.J, NormalOf(mesh, 3), 1e-9);
     }
 
+    [Fact]
+    public void Generate_CrowdedCornerOfTwoDiscs_IsSharpBetweenThem()
+    {
+        // Two discs of 80 triangles around one point, at a right angle.
+        const int Sides = 80;
+        double[] positions = [0, 0, 0];
+        int[] indices = [];
+        for (var i = 0; i < 2 * Sides; i++)
+        {
+            var (sine, cosine) = Math.SinCos(2 * Math.PI * i / Sides);
+            var first = i / Sides * Sides;
+            positions = [.. positions, .. i < Sides ? (double[])[cosine, 0, sine] : [0, cosine, sine]];
+            indices = [.. indices, 0, 1 + i, 1 + first + ((i + 1 - first) % Sides)];
+        }
+
+        var mesh = NormalGenerator.Generate(new([.. positions], [.. indices]), 30);
+        AssertNear(-Vector.J, NormalOf(mesh, 0), 1e-12);
+        AssertNear(Vector.I, NormalOf(mesh, 3 * Sides), 1e-12);
+    }
+
     [Theory]
     [InlineData(-1)]
     [InlineData(181)]

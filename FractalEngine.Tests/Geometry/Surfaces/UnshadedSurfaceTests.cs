@@ -22,6 +22,12 @@ public class UnshadedSurfaceTests
         Assert.Null(UnshadedSurface.FindPlane(new([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1e-6], [0, 1, 2, 1, 3, 2])));
     }
 
+    /// <summary>The direction of a sliver is decided by rounding, and says nothing of the plane.</summary>
+    [Fact]
+    public void Plane_OfAFlatMeshThatBeginsWithASliver_IsFound() => Assert.Equal(
+        1, Math.Abs(UnshadedSurface.FindPlane(
+            new([0, 0, 0, 1, 0, 0, 0.5, 1e-11, 1e-11, 1, 1, 0, 0, 1, 0], [0, 1, 2, 0, 1, 3, 0, 3, 4]))!.Value.Z), 1e-9);
+
     [Fact]
     public void Convexity_OfSolids_IsExact()
     {

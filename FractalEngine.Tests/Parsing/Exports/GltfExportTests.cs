@@ -223,6 +223,34 @@ public sealed class GltfExportTests : IDisposable
                 $"{mesh.TextureCoordinates[2 * corner.Second]:F5} {mesh.TextureCoordinates[(2 * corner.Second) + 1]:F5}")));
     }
 
+    /// <summary>Two materials have one image, of an odd number of bytes: one repeats it elsewhere, and the other ends it.</summary>
+    [Fact]
+    public void Textures_ReadBack_AreWhereTheyWere()
+    {
+        var bytes = File.ReadAllBytes(Repository.Full("assets/models/crate.png"));
+        // What stands behind the image belongs to no reader of it.
+        bytes = [.. bytes, .. new byte[1 - (bytes.Length % 2)]];
+        File.WriteAllBytes(_folder["tiles.png"], bytes);
+        File.WriteAllText(
+            _folder["m.mtl"], "newmtl Moved\nmap_Kd -s 2 3 -o 0.25 0.5 tiles.png\nnewmtl Ended\nmap_Kd -clamp on tiles.png\n");
+        File.WriteAllText(
+            _folder["a.obj"], "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+            + "usemtl Moved\nf 1/1 2/2 3/3\nusemtl Ended\nf 1/1 3/3 4/4\n");
+        Export(AssetLoader.Load(_folder["a.obj"]).Scene);
+        var model = AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model;
+        Assert.Equal(new(Vector.Zero, new(1, 1, 0)), model.Mesh.UsedBounds);
+        Assert.All(model.Materials.Values, material => Assert.Equal(bytes, material.Texture!.Contents));
+        Assert.Equal((false, true), (model.Materials["Moved"].Texture!.IsClamped, model.Materials["Ended"].Texture!.IsClamped));
+        Assert.Equal([0.25, 0.5, 2.25, 0.5, 2.25, 3.5], CoordinatesOf("Moved"));
+        Assert.Equal([0, 0, 1, 1, 0, 1], CoordinatesOf("Ended"));
+
+        double[] CoordinatesOf(string material)
+        {
+            var face = model.Mesh.Groups.Single(group => group.Material == material).FirstFace;
+            return [.. model.Mesh.TextureIndices.Skip(3 * face).Take(3).SelectMany(i => model.Mesh.TextureCoordinates.Skip(2 * i).Take(2))];
+        }
+    }
+
     /// <summary>Normals of instances with faces of their own stay on the side that the corners turn around, mirrored or not.</summary>
     [Fact]
     public void Normals_OfSkewedMirrors_PointOutward()
@@ -299,9 +327,10 @@ public sealed class GltfExportTests : IDisposable
     }
 
     [Theory]
-    [InlineData("left")]
-    [InlineData("right")]
-    public void CameraAndLights_ReadBack_AreWhatWasOnTheScreen(string handed)
+    [InlineData("left", 1)]
+    [InlineData("right", 1)]
+    [InlineData("right", 8)]
+    public void CameraAndLights_ReadBack_AreWhatWasOnTheScreen(string handed, double unit)
     {
         File.Copy(Repository.Full("assets/models/crate.obj"), _folder["crate.obj"]);
         File.WriteAllText(_folder["s.sdo"], $"""
@@ -313,20 +342,20 @@ public sealed class GltfExportTests : IDisposable
             o "crate.obj" #
             """);
         var written = AssetLoader.Load(_folder["s.sdo"]).Scene.Scene;
-        Export(LoadedScene.Of(written));
+        Export(LoadedScene.Of(written), new() { UnitLength = unit });
         var read = AssetLoader.Load(_folder["a.glb"], new() { IsStaged = true }).Scene.Scene;
         var mirror = Matrix.Diagonal(new(1, 1, handed == "left" ? -1 : 1));
         // Numbers of at most 25, in floats.
-        Near.Equal(mirror * written.Camera!.Position, read.Camera!.Position, 1e-6);
+        Near.Equal(unit * (mirror * written.Camera!.Position), read.Camera!.Position, unit * 1e-6);
         Near.Equal(mirror * written.Camera.LocalAxes, read.Camera.LocalAxes, 1e-6);
         Near.Equal(1, read.Camera.FieldOfView / written.Camera.FieldOfView, 1e-6);
         Assert.Equal(written.Lights.Select(static light => light.Kind), read.Lights.Select(static light => light.Kind));
         foreach (var (expected, actual) in written.Lights.Zip(read.Lights, static (a, b) => (a.ToEmitter()!, b.ToEmitter()!)))
         {
-            Near.Equal(mirror * (expected.Position ?? Vector.Zero), actual.Position ?? Vector.Zero, 1e-6);
+            Near.Equal(unit * (mirror * (expected.Position ?? Vector.Zero)), actual.Position ?? Vector.Zero, unit * 1e-6);
             Near.Equal(mirror * expected.Axis, actual.Axis, 1e-6);
             Near.Equal(expected.Radiance, actual.Radiance, 1e-6);
-            Near.Equal(0, double.IsInfinity(expected.Range) ? 0 : expected.Range - actual.Range, 1e-6);
+            Near.Equal(0, double.IsInfinity(expected.Range) ? 0 : (unit * expected.Range) - actual.Range, unit * 1e-6);
             Near.Equal(1, actual.ConeAngle / expected.ConeAngle, 1e-6);
         }
 

@@ -383,6 +383,37 @@ public sealed class GltfReaderTests : IDisposable
         Near.Equal(0.7353569, model.Mesh.Colours[3], 1e-6);
     }
 
+    /// <summary>The transform of a texture may name other coordinates than the texture does.</summary>
+    [Fact]
+    public void Pane_WithATextureThatIsMovedAndEnds_IsThatOfTheFile()
+    {
+        var document = QuadDocument(4, [0, 1, 2, 0, 2, 3]);
+        var attributes = document["meshes"][0]!["primitives"]![0]!["attributes"]!.AsObject();
+        attributes["TEXCOORD_0"] = document.Add("VEC2", 5126, 2, 9, 9, 9, 9, 9, 9, 9, 9);
+        attributes["TEXCOORD_1"] = document.Add("VEC2", 5126, 2, 0, 0, 1, 0, 1, 1, 0, 1);
+        document["meshes"][0]!["primitives"]![0]!["material"] = 0;
+        var png = new MemoryStream();
+        PngWriter.Write(new PixelImage(2, 1, [255, 0, 0, 255, 0, 255, 0, 255]), png);
+        var view = document.AddImage(png.ToArray());
+        document.Root["images"] = JsonNode.Parse(string.Create(
+            CultureInfo.InvariantCulture, $"[{{\"bufferView\": {view}, \"mimeType\": \"image/png\"}}]"));
+        document.Root["samplers"] = JsonNode.Parse("""[{"wrapS": 33071, "wrapT": 33071}, {}]""");
+        document.Root["textures"] = JsonNode.Parse("""[{"source": 0, "sampler": 0}, {"source": 0, "sampler": 1}]""");
+        document.Root["extensionsUsed"] = JsonNode.Parse(
+            """["KHR_texture_transform", "KHR_materials_transmission", "KHR_materials_ior"]""");
+        document["materials"].Add(JsonNode.Parse("""
+            {"name": "Pane", "pbrMetallicRoughness": {"baseColorTexture":
+              {"index": 0, "extensions": {"KHR_texture_transform": {"offset": [0.25, 0.5], "texCoord": 1}}}}, "normalTexture": {"index": 1},
+             "extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.75}, "KHR_materials_ior": {"ior": 1.25}}}
+            """));
+        File.WriteAllBytes(_folder["a.glb"], document.Binary());
+        var model = AssetLoader.Load(_folder["a.glb"]).Scene.Objects[0].Model;
+        var material = Assert.Single(model.Materials).Value;
+        Assert.Equal((0.25, 1.25), (material.Opacity, material.RefractiveIndex));
+        Assert.Equal((true, false), (material.Texture!.IsClamped, material.NormalTexture!.IsClamped));
+        Assert.Equal((double[])[0.25, 0.5, 1.25, 0.5, 1.25, -0.5, 0.25, -0.5], model.Mesh.TextureCoordinates);
+    }
+
     [Fact]
     public void Text_WithFilesBesideIt_ReadsThemWithinItsFolder()
     {

@@ -93,6 +93,7 @@ public class FilmParserTests
         "keys of one thing stand in the order of their times, and the one before is at 4 seconds")]
     [InlineData("film 9\nat 4 c # look-at (0, 0, 0) 60", 2, 18, "a camera can't look at its own position")]
     [InlineData("film 9\nat 4 c (1e151, 0, 0) # 60", 2, 6, "the camera of a key is beyond the limit of 1e150")]
+    [InlineData("film 9\nat 4 c (1, 0, 0) look-at (1e151, 0, 0) 60", 2, 6, "the camera of a key is beyond the limit of 1e150")]
     [InlineData("film 9\nat 4 c # # 60 ease slow", 2, 20, "unexpected 'slow', expected 'linear', 'in-out', 'in', 'out' or 'hold'")]
     [InlineData("film 9\nat 4 a 3", 2, 8, "unexpected '3', expected '='")]
     [InlineData("film 9\nat 4 = 3", 2, 6, "unexpected '=', expected 'c' or the name of a number")]

@@ -1,5 +1,6 @@
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Tests.Support;
 
@@ -84,6 +85,20 @@ public class RigidFlightTests
         Near.Equal(expected.ToMatrix(), body.Orientation.ToMatrix(), 1e-5);
         var centre = SolidMoments.Of(mesh, AffineMap.Identity).Centre;
         Near.Equal(new Vector(4, 5, 6), RigidMeshes.PointOf(body, centre), 1e-12);
+    }
+
+    /// <summary>A speed falls by e^(−rate·t), and so does a spin.</summary>
+    [Fact]
+    public void Flight_WithDamping_LosesSpeedAndSpinAlike()
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), Vector.Zero) with
+        {
+            Damping = 0.7, Velocity = 2 * Vector.I, AngularVelocity = 3 * Vector.J,
+        });
+        world.Run(60);
+        Near.Equal(2 * Math.Exp(-0.7) * Vector.I, body.Velocity, 1e-9);
+        Near.Equal(3 * Math.Exp(-0.7) * Vector.J, body.AngularVelocity, 1e-9);
     }
 
     private static Matrix InertiaOf(Body body, Matrix inertia)

@@ -120,6 +120,23 @@ public class RigidWorldTests
         Assert.Equal(2, phases.Count(static one => one.Phase != ContactPhase.Stay));
     }
 
+    /// <summary>A bar that has turned from x to z reaches into a crate there, and holds no corner of it.</summary>
+    [Fact]
+    public void Trigger_ThatHasTurned_TellsOfWhatReachesIntoIt()
+    {
+        var world = new PhysicsWorld(new PhysicsSettings { ReportsContacts = true }) { Gravity = Vector.Zero };
+        var trigger = world.AddStatic(RigidMeshes.Box(12, 1, 1), Transformation.Identity);
+        trigger.IsTrigger = true;
+        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(3, 3, 3), new(0, 0, 7)));
+        world.Run(2);
+        Assert.Empty(world.ContactEvents.ToArray());
+        trigger.SetMotion(Vector.Zero, 0.5 * Math.PI * Vector.J);
+        world.Run(60);
+        var contact = Assert.Single(world.ContactEvents.ToArray());
+        Assert.Equal((trigger, body), (contact.StaticObject, contact.Body));
+        Assert.NotEqual(ContactPhase.End, contact.Phase);
+    }
+
     [Fact]
     public void Rest_IsReportedWithTheWeight()
     {
@@ -157,6 +174,68 @@ public class RigidWorldTests
         floor.SetBelt(Vector.Zero);
         world.Run(60);
         Near.Equal(Vector.Zero, body.Velocity, 0.01);
+    }
+
+    /// <summary>The direction of a belt turns with its object: a quarter turn about y takes x to −z.</summary>
+    [Fact]
+    public void Belt_OfAFloorThatHasTurned_CarriesACrateAlongItsOwnAxis()
+    {
+        var world = new PhysicsWorld(new PhysicsSettings { SleepSpeed = 0 });
+        var floor = world.AddStatic(PhysicsMeshes.Cube, FloorPlace);
+        floor.SetMotion(Vector.Zero, 0.5 * Math.PI * Vector.J);
+        world.Run(60);
+        floor.SetMotion(Vector.Zero);
+        floor.SetBelt(Vector.I);
+        var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(0, 0.5001, 0)) with { Mass = 3, Friction = 0.5 });
+        world.Run(90);
+        Near.Equal(-Vector.K, body.Velocity, 0.01);
+    }
+
+    [Fact]
+    public void Ball_BesideACrate_ShrinksAsItDoesAlone()
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(50, 0, 0)));
+        var ball = world.Add(new(Vector.Zero, 1) { Shrinkage = 0.25, MinScale = 0.6 });
+        world.Run(60);
+        Near.Equal(0.75, ball.Radius, 1e-12); // sixty subtractions
+        world.Run(60);
+        Near.Equal(0.6, ball.Radius, 1e-12);
+    }
+
+    /// <summary>Of two bodies the smaller rolling friction counts.</summary>
+    [Fact]
+    public void Ball_OnACrateWithoutRollingFriction_RollsOn()
+    {
+        var world = BoxContactTests.CreateOnFloor();
+        var ball = world.Add(new(new(-8, 1.5, 0), 0.5)
+        {
+            Friction = 1, RollingFriction = 0.2, Velocity = 2 * Vector.I, AngularVelocity = -4 * Vector.K,
+        });
+        world.Add(RigidMeshes.Describe(RigidMeshes.Box(20, 1, 4), new(0, 0.5, 0)) with { Friction = 1, Mass = 1000 });
+        world.Run(120);
+        Near.Equal(2, ball.Velocity.X, 0.05);
+    }
+
+    /// <summary>Of a body of half the size and the same mass, a torque changes the spin four times as fast.</summary>
+    [Fact]
+    public void Compound_BesideACrate_TurnsAsItsSizeSays()
+    {
+        var world = new PhysicsWorld { Gravity = Vector.Zero };
+        world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), new(50, 0, 0)));
+        var shape = CompoundShape.OfBalls([new(-Vector.I, 0.5), new(Vector.I, 0.5)]);
+        var body = world.Add(new(Vector.Zero, shape) { Mass = 2 });
+        var small = world.Add(new(new(0, 20, 0), shape) { Mass = 2, Shrinkage = 1, MinScale = 0.5 });
+        world.Run(60);
+        foreach (var one in (Body[])[body, small])
+        {
+            world.ApplyForce(one, 0.1 * Vector.J, one.Position + Vector.I);
+            world.ApplyForce(one, -0.1 * Vector.J, one.Position - Vector.I);
+        }
+
+        world.Step();
+        Near.Equal(4 * body.AngularVelocity.Z, small.AngularVelocity.Z, 1e-9);
+        Assert.True(body.AngularVelocity.Z > 0);
     }
 
     private static BodyDescription Sponge(int depth, Vector position) =>

@@ -222,16 +222,17 @@ public class PathTracerTests
     };
 
     [Theory]
-    [InlineData(4, 6, 1)]
-    [InlineData(5.5, 100, 0)]
-    [InlineData(1, 4.5, 0)]
-    public void AddSample_BetweenClipPlanes_ShowsDepthsAndNotDistances(double near, double far, double expected)
+    [InlineData(4, 6, 1, 0)]
+    [InlineData(5.5, 100, 0, 0)]
+    [InlineData(1, 4.5, 0, 0)]
+    [InlineData(4.99, 5.01, 1, 9)]
+    public void AddSample_BetweenClipPlanes_ShowsDepthsAndNotDistances(double near, double far, double expected, double aperture)
     {
         // A wall at the depth 5. Towards the corners of the frame it is at up to 8.7 units from the eye.
         var wall = Matt(Quad(new(-50, -50, 0), new(-50, 50, 0), new(50, 50, 0), new(50, -50, 0)), Colour.White);
         var scene = Scene([WhiteSky], wall) with { Background = Colour.Black, Clip = (near, far) };
 
-        var tracer = Trace(scene, new(new(0, 0, -5), Vector.Zero, 90), 8, 4);
+        var tracer = Trace(scene, new(new(0, 0, -5), Vector.Zero, 90) { Aperture = aperture, FocusDepth = 2 }, 8, 4);
 
         Assert.Equal(expected, tracer.RadianceAt(0, 0).X, 1e-9);
         Assert.Equal(expected, tracer.RadianceAt(4, 4).X, 1e-9);

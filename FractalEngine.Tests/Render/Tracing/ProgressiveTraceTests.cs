@@ -125,6 +125,7 @@ public class ProgressiveTraceTests
         Assert.NotNull(trace.Problem);
         Assert.True(trace.TakeUpdate());
         trace.Show(new(Sponge, Front, 8, 8));
+        Assert.Null(trace.Problem);
         Polling.WaitUntil(() => trace.State == TraceState.Done, "end of the trace");
         Assert.Null(trace.Problem);
     }

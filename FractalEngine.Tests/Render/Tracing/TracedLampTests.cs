@@ -193,6 +193,18 @@ public class TracedLampTests
         Assert.InRange(mean.Y, (0.97 * expected.Y) - (3 * error), (1.03 * expected.Y) + (3 * error));
     }
 
+    /// <summary>Paths that glass bends don't meet a lamp where its samples are, so that these count whole.</summary>
+    [Fact]
+    public void AddSample_OfAWideLampBehindGlassThatHardlyBends_IsAsBrightAsWithoutIt()
+    {
+        var glass = new Material("glass") { RefractiveIndex = 1.001, Opacity = 0 };
+        var floor = new Material("m") { Diffuse = Colour.White };
+        var lamp = new QuadLight(new(0.3, 2, 0.2), -Vector.J, 4, 4, Colour.White, 1, 100);
+        var (mean, error) = Mean(Scene(lamp, (Floor(), floor), (Shapes.Box(new(new(-9, 1, -9), new(9, 1.5, 9))), glass)), Above);
+        var expected = LampIntegral.Irradiance(lamp, new(0.3, 0, 0.2), Vector.J);
+        Assert.InRange(mean.Y, (0.97 * expected) - (3 * error), (1.03 * expected) + (3 * error));
+    }
+
     [Fact]
     public void AddSample_OfALampBehindAnother_ShowsTheNearerOne()
     {
@@ -203,6 +215,18 @@ public class TracedLampTests
         Assert.InRange(mean.Y, expected.Y - (3 * error), expected.Y + (3 * error));
         var radiance = LampIntegral.RadianceOf(near);
         Assert.Equal(radiance, Trace(Scene([far, near], floor), Upwards(Above), 1).RadianceAt(0, 0).Y, 1e-3 * radiance);
+    }
+
+    /// <summary>Lamps are cut by clip planes as all surfaces are.</summary>
+    [Theory]
+    [InlineData(1, true)]
+    [InlineData(2.5, false)]
+    public void AddSample_OfALampBeforeTheNearPlane_DoesNotShowIt(double near, bool isSeen)
+    {
+        var lamp = new QuadLight(new(0, 3, 0), -Vector.J, 3, 3, Colour.White, 1, 100);
+        var view = new View(new(Vector.J, Vector.Zero, 1), Projection.Perspective) { FixedClipPlanes = (near, 50) };
+        var seen = Trace(Scene(lamp), Upwards(view), 1).RadianceAt(0, 0).Y;
+        Assert.Equal(isSeen ? LampIntegral.RadianceOf(lamp) : 0.1, seen, 0.01);
     }
 
     private static void AssertIrradiance(PointLight lamp, Vector normal, double factor)

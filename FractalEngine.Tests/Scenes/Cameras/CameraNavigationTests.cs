@@ -116,6 +116,15 @@ public class CameraNavigationTests
         Near.Equal(camera.LocalAxes, CameraNavigation.Turn(camera, 0, 0).LocalAxes, Tolerance);
     });
 
+    [Theory]
+    [InlineData(90)]
+    [InlineData(-90)]
+    public void Turn_ToTheSideOfAViewFromTheTop_KeepsItThere(double degrees)
+    {
+        var camera = new Camera(Vector.Zero, new(degrees * Math.PI / 180, 0, 0), 60);
+        Near.Equal(camera.LocalAxes.V3, CameraNavigation.Turn(camera, 0.5, 0).LocalAxes.V3, Tolerance);
+    }
+
     [Fact]
     public void Turn_KeepsThePosition() => Assert.Equal(Camera.Default.Position, CameraNavigation.Turn(Camera.Default, 1, 0.5).Position);
 

@@ -117,6 +117,42 @@ public class FilmTests
         }
     }
 
+    /// <summary>Frames load a scene anew where any of its numbers has changed, and only there.</summary>
+    [Fact]
+    public void HasSameValuesAt_WhileOneOfTwoNumbersChanges_IsFalse()
+    {
+        var film = new Film(9)
+        {
+            Keys = [new NumberKey(0, "a", 1), new NumberKey(2, "a", 1), new NumberKey(0, "b", 1), new NumberKey(2, "b", 3)],
+        };
+        Assert.False(film.HasSameValuesAt(0, 1));
+        Assert.True(film.HasSameValuesAt(2, 8));
+    }
+
+    [Fact]
+    public void Path_OfALens_ChangesItFromKeyToKey()
+    {
+        var (near, far) = (Look(0, new(0, 0, 9), Vector.Zero), Look(2, new(0, 0, 3), Vector.Zero));
+        CameraKey[] keys =
+        [
+            near with { Camera = near.Camera with { Aperture = 1, FocusDepth = 9 } },
+            far with { Camera = far.Camera with { Aperture = 0.5, FocusDepth = 3 } },
+        ];
+        var path = new CameraPath(keys, Handedness.Left);
+        Assert.Equal([(1, 9), (0.875, 7.5), (0.5, 3)], new[] { 0, 0.5, 2 }.Select(path.At).Select(
+            static camera => (camera.Aperture, camera.FocusDepth)));
+    }
+
+    /// <summary>What is held jumps: the camera comes to rest at the key before as if that were the last one.</summary>
+    [Fact]
+    public void Path_BeforeAKeyThatIsHeld_KnowsNothingOfIt()
+    {
+        CameraKey[] keys = [new(0, new(new(0, 0, 9), Vector.Zero, 50)), new(1, new(new(3, 0, 9), Vector.Zero, 50))];
+        var held = new CameraKey(2, new(new(99, 99, 9), Vector.Zero, 50)) { Ease = Ease.Hold };
+        var (path, withoutIt) = (new CameraPath([.. keys, held], Handedness.Left), new CameraPath(keys, Handedness.Left));
+        Assert.Equal(withoutIt.At(0.75), path.At(0.75));
+    }
+
     [Fact]
     public void Path_OneKey_StandsStill()
     {

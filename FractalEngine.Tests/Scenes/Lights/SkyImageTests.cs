@@ -46,6 +46,14 @@ public sealed class SkyImageTests
         static bool Near((double, double) a, (double, double) b) => Math.Abs(a.Item1 - b.Item1) + Math.Abs(a.Item2 - b.Item2) < 1e-8;
     }
 
+    /// <summary>Eight places just above it, of a fiftieth of a steradian each, hold less than a quarter of ground.</summary>
+    [Fact]
+    public void Horizon_OfABrightSkyOverDarkGround_IsThatOfTheSky()
+    {
+        var image = new FloatImage(64, 32, [.. Enumerable.Range(0, 64 * 32 * 3).Select(static i => i < 64 * 16 * 3 ? 1f : 0)]);
+        Assert.InRange(new SkyImage(image).Horizon.Y, 0.75, 1);
+    }
+
     [Theory]
     [InlineData(16, 8)]
     [InlineData(37, 11)]

@@ -111,6 +111,32 @@ public class CameraControlsTests
         Assert.False(flight.Controls.Advance(Frame));
     }
 
+    [Theory]
+    [InlineData(KeyModifiers.Shift, 4)]
+    [InlineData(KeyModifiers.Alt, 0.25)]
+    public void KeyD_WithAModifier_IsAsFastAsThatSays(KeyModifiers modifier, double factor)
+    {
+        Near.Equal(factor, WayOf(modifier) / WayOf(KeyModifiers.None), 0.1 * factor); // it gets slower as it comes closer
+
+        static double WayOf(KeyModifiers modifiers)
+        {
+            var flight = CreateFlight();
+            Press(flight.Controls, Key.D, modifiers);
+            var before = flight.Camera.Camera.Position;
+            flight.Controls.Advance(Frame);
+            return (flight.Camera.Camera.Position - before).Length();
+        }
+    }
+
+    /// <summary>A flight of half a level is half of that of a whole one.</summary>
+    [Fact]
+    public void Zoom_OfHalfALevel_TakesHalfTheSteps()
+    {
+        var zoom = new CameraZoom(
+            Menger.NodeAt(Menger.LevelCount).Box, new(0, Menger, AffineMap.Identity), new(Start, Projection.Perspective));
+        Assert.Equal(0.5 * zoom.CountSteps(1), zoom.CountSteps(0.5));
+    }
+
     [Fact]
     public void KeyS_AfterW_ComesOutAgain()
     {

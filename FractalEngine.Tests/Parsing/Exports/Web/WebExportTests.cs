@@ -65,6 +65,80 @@ public class WebExportTests
         Assert.Equal([false, true], page["objects"].EnumerateArray().Select(static one => one.GetProperty("isMirrored").GetBoolean()));
     }
 
+    /// <summary>What turns some of its instances inside out is drawn from both sides, as a mirrored object is.</summary>
+    [Fact]
+    public void Page_OfAFractalWithMirrors_SaysThatItIsMirrored()
+    {
+        using var folder = new TemporaryFolder();
+        var page = PageReader.Of(folder.Write("m.fdo", "<$>. [((0, 0, 0), #, #), ((2, 0, 0), #, (-1, 1, 1))] box\n"));
+        Assert.True(page["objects"][0].GetProperty("isMirrored").GetBoolean());
+    }
+
+    /// <summary>A gradient goes over the whole, also where it has several base meshes.</summary>
+    [Fact]
+    public void Page_OfSeveralMeshes_HasTheirWholeForEach()
+    {
+        using var folder = new TemporaryFolder();
+        var page = PageReader.Of(folder.Write("w.fdo", "gradient height (1, 0, 0) (0, 0, 1)\n<$>. box + [((0, 3, 0), #, #)] ball\n"));
+        // Boxes and balls are 1 wide.
+        Assert.All(page["objects"].EnumerateArray(), static one => Assert.Equal(
+            [0, 1.5, 0, 1, 4, 1], PageReader.Numbers(one.GetProperty("whole")).Select(static number => Math.Round(number, 9))));
+        Assert.Equal(2, page["objects"].GetArrayLength());
+    }
+
+    [Fact]
+    public void Page_OfMapColours_HasTheLightThatTheyAddAndKeep()
+    {
+        using var folder = new TemporaryFolder();
+        var page = PageReader.Of(folder.Write("c.fdo", "<$>. [#, ((2, 0, 0), #, #) colour (0, 1, 0.5) 0.25] box\n"));
+        // 0.5 of sRGB is 0.2140411 of light. A map without a colour keeps all.
+        Assert.Equal(
+            [0, 0, 0, 1, 0, 0.25, 0.0535103, 0.75],
+            PageReader.Numbers(page["fractals"][0].GetProperty("values"))[^8..].Select(static number => Math.Round(number, 7)));
+    }
+
+    [Fact]
+    public void Page_OfTexturesAndLights_HasTheirNumbers()
+    {
+        using var folder = new TemporaryFolder();
+        File.Copy(Repository.Full("assets/models/crate.png"), folder["tiles.png"]);
+        folder.Write("m.mtl", "newmtl A\nmap_Kd -s 2 3 -o 0.25 0.5 -clamp on tiles.png\n");
+        folder.Write(
+            "a.obj", "mtllib m.mtl\nusemtl A\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 4 -1\nvt 6 -1\nvt 5 7\nf 1/1 2/2 3/3\n");
+        var page = PageReader.Of(folder.Write("s.sdo", """
+            sky (0, 0, 1) (0, 1, 0) (1, 0, 0)
+            fog 0.5
+            light spot (1, 2, 3) (0, -1, 0) 60 (1, 1, 1) 1 10
+            light point (1, 2, 3) (1, 1, 1) 1 7
+            o "a.obj" #
+            """));
+        var mesh = page["meshes"][0];
+        var box = PageReader.Numbers(mesh.GetProperty("textureBox"));
+        var steps = PageReader.Numbers(mesh.GetProperty("texture"));
+        var (u, v) = (0.0, 0.0);
+        foreach (var (i, expected) in new (double U, double V)[] { (4, -1), (6, -1), (5, 7) }.Index())
+        {
+            (u, v) = (u + steps[2 * i], v + steps[(2 * i) + 1]);
+            // Half a step of 65,535.
+            Near.Equal(expected.U, box[0] + (u * box[2]), 2 / 65535.0);
+            Near.Equal(expected.V, box[1] + (v * box[3]), 8 / 65535.0);
+        }
+
+        var material = page["materials"][0];
+        Assert.Equal([2, 3, 0.25, 0.5], PageReader.Numbers(material.GetProperty("place")));
+        Assert.True(material.GetProperty("clamp").GetBoolean());
+        Assert.Equal([0, 1, 0], PageReader.Numbers(page["fog"]));
+        var above = PageReader.Numbers(page["ambient"].GetProperty("above"));
+        var below = PageReader.Numbers(page["ambient"].GetProperty("below"));
+        Assert.True(above[2] > above[0] && below[0] > below[2], "blue from above, red from below");
+        var lights = page["lights"];
+        var cone = PageReader.Numbers(lights[0].GetProperty("cone"));
+        // The light ends at half the angle, and is full up to nine tenths of that.
+        Near.Equal(Math.Cos(Math.PI / 6), cone[0], 1e-12);
+        Near.Equal(Math.Cos(0.9 * Math.PI / 6), cone[1], 1e-12);
+        Assert.Equal((10, 7), (lights[0].GetProperty("range").GetDouble(), lights[1].GetProperty("range").GetDouble()));
+    }
+
     /// <summary>Ends of sliders whose distance is no number make a number that is none, and no page without end.</summary>
     [Theory]
     [InlineData("1.7e308")]
