@@ -7,8 +7,10 @@ namespace FractalEngine.Core.Physics.Rigid;
 /// <summary>How a body flies that touches nothing: on a parabola, with constant angular momentum and energy of rotation.</summary>
 internal static class RigidFlight
 {
-    // Corrections of the energy: each squares its error.
-    private const int MaxCorrections = 3;
+    // Corrections of the energy: each squares its error. Of what turns by radians at once it begins so large that more are needed.
+    private const int Corrections = 3;
+    private const int MaxCorrections = 100;
+    private const double MaxError = 1e-12;
 
     /// <summary>Moves the state of a body on.</summary>
     /// <param name="body">The body at the beginning.</param>
@@ -59,7 +61,8 @@ internal static class RigidFlight
             var error = Vector.Dot(spin, local) - doubledEnergy;
             var gradient = Vector.Cross(local, Vector.Cross(spin, local));
             var slope = 2 * gradient.LengthSquared() / local.LengthSquared();
-            if (error == 0 || !(slope > 1e-12 * doubledEnergy * doubledEnergy))
+            if (error == 0 || !(slope > 1e-12 * doubledEnergy * doubledEnergy)
+                || (i >= Corrections && Math.Abs(error) <= MaxError * doubledEnergy))
             {
                 return orientation;
             }

@@ -118,6 +118,19 @@ internal struct RigidState
         }
     }
 
+    /// <summary>Slows the body down where it has more energy of motion than it can have.</summary>
+    /// <param name="maxEnergy">Joules; what is negative counts as 0.</param>
+    public void LimitEnergy(double maxEnergy)
+    {
+        var energy = KineticEnergy;
+        if (energy > Math.Max(0, maxEnergy))
+        {
+            var scale = Math.Sqrt(Math.Max(0, maxEnergy) / energy);
+            Velocity *= scale;
+            Spin *= scale;
+        }
+    }
+
     /// <summary>Moves and turns the body as an impulse at a point would in a unit of time, if it stood.</summary>
     public void Displace(Vector arm, Vector impulse)
     {

@@ -537,12 +537,15 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var body = surface.Body!;
         if (surface.Fraction < 1)
         {
+            var energy = state.KineticEnergy - (Vector.Dot(state.Acceleration, state.Travel) / state.InverseMass);
             state.Travel = state.TravelBefore + surface.Motion.From(surface.Fraction).Origin - surface.Motion.Origin;
             state.TurnTo(state.TurnBefore.TurnedBy(surface.Fraction * surface.Motion.Turn), state.Turn);
             // It has not fallen for the rest of the time, which it has still before it, or loses.
             var unmade = (1 - surface.Fraction) * seconds * state.Acceleration;
             var part = isTimeKept ? 1 : Vector.Dot(state.Velocity, unmade) / unmade.LengthSquared();
             state.Velocity -= part > 0 ? Math.Min(part, 1) * unmade : Vector.Zero;
+            // Nor does it keep what that fall made of its speed along surfaces and of its spin.
+            state.LimitEnergy(energy + (Vector.Dot(state.Acceleration, state.Travel) / state.InverseMass));
         }
 
         // What cannot move for a whole step loses the speed that it would otherwise gather.

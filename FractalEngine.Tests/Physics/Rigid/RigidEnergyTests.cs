@@ -63,6 +63,37 @@ public class RigidEnergyTests
         });
     });
 
+    /// <summary>
+    /// What falls a thousand of its lengths a step, and is held by several faces, stops in each substep: that fall must not become speed
+    /// along the faces, or spin.
+    /// </summary>
+    [Fact]
+    public void SmallBodies_PressedIntoABox_GainNoEnergy() => Seeded.Run(30, random =>
+    {
+        const double size = 1e-3;
+        var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(RigidMeshes.Box(6 * size, 6 * size, 6 * size)));
+        var meshes = (Mesh[])[RigidMeshes.Box(1, 0.1, 0.5), RigidMeshes.CreateL(0.4), RigidMeshes.Box(1, 0.4, 0.7)];
+        var shape = new MeshShape(Model.Of(meshes[random.Next(3)]), size * random.Orthogonal());
+        var body = world.Add(new BodyDescription(Vector.Zero, shape)
+        {
+            Mass = 1,
+            Velocity = 10 * size * random.Direction(),
+            Friction = random.Next(2) * random.NextDouble(),
+            Restitution = random.NextDouble(),
+        });
+        var weight = TestWorlds.Gravity.Length();
+        for (var step = 0; step < 20; step++)
+        {
+            var energy = world.Energy();
+            var work = body.KineticEnergy + (weight / 60 * (body.Velocity.Length() + (weight / 120)));
+            world.Step();
+            // Besides what a fall of a step is worth: that the body is moved apart from faces, by a contact distance each time.
+            Assert.True(
+                world.Energy() - energy <= (MaxGain * work) + (2e-4 * weight * body.Radius),
+                $"{world.Energy():R} J, {energy:R} J before, step {world.StepCount}");
+        }
+    });
+
     private static void Throw(int count) => Seeded.Run(count, random =>
     {
         var world = TestWorlds.Create(

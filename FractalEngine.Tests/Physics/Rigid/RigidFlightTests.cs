@@ -41,6 +41,22 @@ public class RigidFlightTests
         }
     }
 
+    /// <summary>With as many substeps as there may be, it turns by three radians in each.</summary>
+    [Fact]
+    public void Flight_AtRadiansASubstep_KeepsEnergyAndAngularMomentum()
+    {
+        var mesh = MeshOf("plank");
+        var inertia = SolidMoments.Of(mesh, AffineMap.Identity).Inertia;
+        var spin = 2e5 * new Vector(3, -4, 5).UnitVector();
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
+        var body = world.Add(RigidMeshes.Describe(mesh, Vector.Zero) with { Mass = 1, AngularVelocity = spin });
+        var momentum = inertia * spin;
+        world.Run(2);
+        var current = InertiaOf(body, inertia) * body.AngularVelocity;
+        Near.Equal(momentum, current, 1e-8 * momentum.Length());
+        Near.Equal(Vector.Dot(spin, momentum), Vector.Dot(body.AngularVelocity, current), 1e-8 * Vector.Dot(spin, momentum));
+    }
+
     [Theory]
     [MemberData(nameof(Shapes))]
     public void Orientation_AfterTwoSeconds_IsThatOfEulersEquations(string name)
