@@ -218,7 +218,7 @@ public sealed class CullingDrawingTests
     [SkippableFact]
     public void Draw_WithNothingChanged_CullsAndUploadsNothing()
     {
-        var scene = RenderScenes.Scene(new Scene(), (RenderScenes.Menger(3), Transformation.Identity, null),
+        var scene = RenderScenes.Scene(new Scene(), (LoadModel("sierpinski", 5), Transformation.Identity, null),
             (LoadModel("tree", 5), RenderScenes.TranslatedTo(0, 0, 2), null));
         var view = new View(ObliqueCamera, Projection.Perspective);
         using var context = new SharedContext();

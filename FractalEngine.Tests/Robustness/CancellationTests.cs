@@ -119,7 +119,11 @@ public sealed class CancellationTests : IDisposable
             .Where(member => !member.IsAbstract && (member.IsConstructor || !member.IsSpecialName)
                 && Array.Exists(member.GetParameters(), parameter => isMeant(parameter.ParameterType)
                     || (member.Name == "Write" && parameter.ParameterType == typeof(ExportSettings))))
-            .Select(static member => $"{member.DeclaringType!.Name}.{member.Name}").Distinct();
+            .SelectMany(
+                static member => member.DeclaringType is { IsAbstract: true, IsSealed: false } shared
+                    ? shared.Assembly.GetExportedTypes().Where(type => type.IsSubclassOf(shared)) : [member.DeclaringType!],
+                static (member, type) => $"{type.Name}.{member.Name}")
+            .Distinct();
 
     private Work Make(string member)
     {
