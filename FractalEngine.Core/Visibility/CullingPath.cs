@@ -40,13 +40,14 @@ internal readonly record struct CullingPath(ulong Hash, ColourPath ColourPath)
     /// <param name="childSides">The child's sides that are covered, and those that lie in a side of its parent.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public CullingPath Append(
-        int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient, (byte Covered, byte Shared) childSides) => new(
-        ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
-        gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
-    {
-        MapTint = MapTint,
-        CoveredSides = childSides.Covered | (childSides.Shared & CoveredSides),
-    };
+        int childIndex, int depth, int mapIndex, int setSize, GradientKind gradient, (byte Covered, byte Shared) childSides) =>
+        new(
+            ((Hash ^ (ulong)(childIndex + 1)) * HashMixing.GoldenGamma) + (ulong)depth,
+            gradient == GradientKind.None ? ColourPath : ColourPath.Append(mapIndex, setSize))
+        {
+            MapTint = MapTint,
+            CoveredSides = childSides.Covered | (childSides.Shared & CoveredSides),
+        };
 
     /// <summary>Appends the tint of a child instance to that of the path.</summary>
     public CullingPath WithTint(Vector128<float> tint) => this with

@@ -110,7 +110,9 @@ public class RigidFlightTests
         var world = new PhysicsWorld { Gravity = Vector.Zero };
         var body = world.Add(RigidMeshes.Describe(RigidMeshes.Box(1, 1, 1), Vector.Zero) with
         {
-            Damping = 0.7, Velocity = 2 * Vector.I, AngularVelocity = 3 * Vector.J,
+            Damping = 0.7,
+            Velocity = 2 * Vector.I,
+            AngularVelocity = 3 * Vector.J,
         });
         world.Run(60);
         Near.Equal(2 * Math.Exp(-0.7) * Vector.I, body.Velocity, 1e-9);
