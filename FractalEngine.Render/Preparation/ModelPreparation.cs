@@ -66,7 +66,7 @@ internal static class ModelPreparation
             InstanceTints = MemoryMarshal.Cast<Vector128<float>, float>(tints.Select(static tint => tint.ToSingle()).ToArray()).ToArray(),
             Batches = batches.Batches,
             DegenerateTriangleCount = batches.DegenerateTriangleCount,
-            HasCoveredSides = hierarchy?.HasCoveredSides == true && HasNormalsAlongAxes(vertices),
+            HasCoveredSides = hierarchy?.HasCoveredSides == true && HasNormalsOfFaces(vertices, indices),
             HasOpenSky = model is FractalModel && hierarchy?.HasOpenSky() == true,
             IsFlat = hierarchy?.IsFlat() == true,
             IsConvex = model is MeshModel && meshWindingSign > 0 && UnshadedSurface.IsConvex(mesh),
@@ -153,8 +153,22 @@ internal static class ModelPreparation
         return commonSign ?? 1;
     }
 
-    private static bool HasNormalsAlongAxes(float[] vertices) => vertices.Chunk(DrawableModel.FloatsPerVertex)
-        .All(static vertex => vertex[3..].Count(static component => component == 0) == 2);
+    /// <summary>Whether all vertices have the normals of their triangles, which lie along axes.</summary>
+    private static bool HasNormalsOfFaces(float[] vertices, uint[] indices)
+    {
+        return indices.Chunk(3).All(face =>
+        {
+            var normal = Vector.Cross(At(face[1], 0) - At(face[0], 0), At(face[2], 0) - At(face[0], 0));
+            return Array.TrueForAll(
+                face, vertex => Vector.Cross(normal, At(vertex, 3)) == Vector.Zero && Vector.Dot(normal, At(vertex, 3)) > 0);
+        });
+
+        Vector At(uint vertex, int offset)
+        {
+            var start = (DrawableModel.FloatsPerVertex * (int)vertex) + offset;
+            return new(vertices[start], vertices[start + 1], vertices[start + 2]);
+        }
+    }
 
     /// <summary>Returns the centre of a box, or the origin where it is infinite, as that of an unbounded fractal.</summary>
     private static Vector CentreOrOrigin(BoundingBox box) => box.Centre.IsFinite() ? box.Centre : Vector.Zero;

@@ -1,9 +1,11 @@
+using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Lights;
 using FractalEngine.Core.Views;
+using FractalEngine.Render.Preparation;
 using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.Render;
@@ -38,5 +40,22 @@ public sealed class CoveredSidesDrawingTests
         ImageComparison.AssertSame(
             RenderScenes.Draw(loaded, view, Width, Height, settings with { BackFaceCulling = false }),
             RenderScenes.Draw(loaded, view, Width, Height, settings), "a sponge");
+    }
+
+    /// <summary>A file may give its faces any normals, which then don't tell sides apart.</summary>
+    [Fact]
+    public void Cubes_WithNormalsOfOtherSides_KeepAllSides()
+    {
+        var cube = RenderScenes.Cube(1);
+        Assert.True(HasCoveredSides(cube));
+        Assert.False(HasCoveredSides(cube.WithNormals([0, 1, 0], [.. cube.VertexIndices.Select(static _ => 0)])));
+
+        static bool HasCoveredSides(Mesh mesh)
+        {
+            var sponge = RenderScenes.Menger(2).Fractal;
+            var model = new FractalModel(new Fractal(sponge.Description, mesh)) { SourcePath = "menger.fdo" };
+            var scene = RenderScenes.Scene(new Scene(), (model, Transformation.Identity, null));
+            return DrawableScene.Prepare(scene, new()).Objects[0].Model.HasCoveredSides;
+        }
     }
 }
