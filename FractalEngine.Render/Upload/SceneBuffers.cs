@@ -19,7 +19,7 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
     public SceneCuller Culler => _culler!;
 
     /// <summary>Culls the instances for the depth maps of lights, one map after the other. Made anew when models are uploaded.</summary>
-    public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models, usesSkyMasks: false);
+    public SceneCuller ShadowCuller => _shadowCuller ??= new(resources, _scene!, _models, isLit: false);
 
     /// <summary>Uploads what is not on the GPU yet, and deletes the buffers of models that the scene no longer has.</summary>
     /// <exception cref="GlException">The driver refuses something, or the GPU's memory does not suffice: nothing has changed.</exception>
@@ -34,7 +34,7 @@ internal sealed class SceneBuffers(GlResources resources) : IDisposable
                 _models.Add(model, new(resources, model));
             }
 
-            culler = new(resources, scene, _models, usesSkyMasks: true);
+            culler = new(resources, scene, _models, isLit: true);
         }
         catch (GlException)
         {

@@ -38,9 +38,9 @@ internal sealed class SceneCuller : IDisposable
     /// <param name="resources">Resources of the current context.</param>
     /// <param name="scene">Scene whose instances are culled.</param>
     /// <param name="models">Buffers of its models.</param>
-    /// <param name="usesSkyMasks">Whether instances come with the parts of the sky that they see, where that is known by now.</param>
+    /// <param name="isLit">Whether colours are drawn: instances come with these, and the parts of the sky that are known by now.</param>
     public SceneCuller(
-        GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models, bool usesSkyMasks)
+        GlResources resources, DrawableScene scene, IReadOnlyDictionary<DrawableModel, ModelBuffers> models, bool isLit)
     {
         _uploadFilter = resources.UploadFilter;
         _scene = scene;
@@ -54,14 +54,15 @@ internal sealed class SceneCuller : IDisposable
             _culledIndices[i] = culledObjects.Count;
             if (model.LodHierarchy is { } hierarchy && !item.IsDynamic)
             {
-                var hasSkyMasks = usesSkyMasks && hierarchy.HasSkyMasks;
-                var shading = InstanceGradient.CreateOrNull(item.Gradient, hierarchy);
-                var gradient = shading is null && item.Gradient is { IsPlain: false } ? null : item.Gradient;
+                var hasSkyMasks = isLit && hierarchy.HasSkyMasks;
+                var shading = isLit ? InstanceGradient.CreateOrNull(item.Gradient, hierarchy) : null;
+                var gradient = !isLit || (shading is null && item.Gradient is { IsPlain: false }) ? null : item.Gradient;
                 var hasTints = gradient is not null;
-                var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks && !hierarchy.HasColours;
+                var hasMapTints = isLit && hierarchy.HasColours;
+                var isSingle = hierarchy.HasNoLevels && !hasTints && !hasSkyMasks && !hasMapTints;
                 _visibleInstances[i] = new(
-                    resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hierarchy.HasColours,
-                    shading?.Gradient.Palette is not null, model.HasCoveredSides);
+                    resources, item.Name, models[model], isSingle, hasTints, hasSkyMasks, hasMapTints,
+                    shading?.Gradient.Palette is not null, isLit && model.HasCoveredSides);
                 culledObjects.Add(new(hierarchy, item.Map, model.MeshOrigin, model.MeshWindingSign, !model.IsSeeThrough)
                 {
                     GradientKind = gradient?.Kind ?? GradientKind.None,
