@@ -36,8 +36,6 @@ public sealed class ExactFractalCollider : Collider
     private readonly FractalHierarchy _hierarchy;
     private readonly TriangleBvh[] _baseBvhs;
 
-    // Null where there are several.
-    private readonly Mesh? _onlyMesh;
     private readonly ExpandedLevels _expandedLevels;
     private readonly double _minRadius;
     private readonly double _rootMagnitude;
@@ -72,7 +70,6 @@ public sealed class ExactFractalCollider : Collider
         _rootMagnitude = _hierarchy.Root.Box.MaxAbsCoordinate();
         _excess = _rootMagnitude > MaxMagnitude ? double.PositiveInfinity : 0;
         _expandedLevels = ExpandedLevels.For(_hierarchy, _baseBvhs[0]);
-        _onlyMesh = hierarchy.BaseMeshes is [var only] ? only : null;
         _similaritySearch = CreateSearch<SimilarityFrame>(_expandedLevels);
         _affineSearch = CreateSearch<AffineFrame>(ExpandedLevels.None);
         _bestFirstSearch = new(_hierarchy, _baseBvhs);
@@ -186,8 +183,8 @@ public sealed class ExactFractalCollider : Collider
                 && FindClosestInImage(in position, in map, isSimilarity, maxDistance, 0, context, out closest);
         }
 
-        var instance = _hierarchy.ResolveInstance(search.ClosestPath, in map, context, out var reach);
-        var mesh = _onlyMesh ?? _hierarchy.BaseMeshAt(search.ClosestPath);
+        var instance = _hierarchy.ResolveInstance(search.ClosestDepth, _hierarchy.Top, in map, context, out var reach);
+        var mesh = _hierarchy.BaseMeshes[context.MeshIndex];
         ClosestPointFactory.OnInstance(mesh, search.ClosestFace, in instance, in position, out closest);
         reach = Math.Max(reach, closest.Point.MaxAbsComponent());
         ClosestPoint.SetErrorBound(ref closest, search.ErrorBound(closest.Distance, reach));

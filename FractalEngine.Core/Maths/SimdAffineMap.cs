@@ -39,12 +39,18 @@ internal readonly struct SimdAffineMap(Vector256<double> v1, Vector256<double> v
     public static SimdAffineMap Compose(in SimdAffineMap map1, in SimdAffineMap map2) =>
         new(map1.ApplyLinear(map2.V1), map1.ApplyLinear(map2.V2), map1.ApplyLinear(map2.V3), map1.Apply(map2.Translation));
 
+    /// <inheritdoc cref="Compose(in SimdAffineMap, in SimdAffineMap)"/>
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    public static SimdAffineMap Compose(in SimdAffineMap map1, in AffineMap map2) => new(
+        map1.ApplyLinear(map2.Linear.V1), map1.ApplyLinear(map2.Linear.V2), map1.ApplyLinear(map2.Linear.V3),
+        map1.ApplyLinear(map2.Translation) + map1.Translation);
+
     /// <summary>Maps a point x, y, z, 0.</summary>
     public Vector256<double> Apply(Vector256<double> point) => ApplyLinear(point) + Translation;
 
     /// <summary>Maps a point as the <see cref="AffineMap"/> does.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
-    public Vector Apply(Vector point) => ToVector(Apply(ToVector256(point)));
+    public Vector Apply(Vector point) => ToVector(ApplyLinear(point) + Translation);
 
     /// <summary>Multiplies the transposed linear part by a vector.</summary>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -68,4 +74,8 @@ internal readonly struct SimdAffineMap(Vector256<double> v1, Vector256<double> v
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public Vector256<double> ApplyLinear(Vector256<double> v) =>
         (Vector256.Create(v[0]) * V1) + (Vector256.Create(v[1]) * V2) + (Vector256.Create(v[2]) * V3);
+
+    [MethodImpl(MethodImplOptions.AggressiveInlining)]
+    private Vector256<double> ApplyLinear(Vector v) =>
+        (Vector256.Create(v.X) * V1) + (Vector256.Create(v.Y) * V2) + (Vector256.Create(v.Z) * V3);
 }

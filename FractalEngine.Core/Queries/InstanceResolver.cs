@@ -11,29 +11,47 @@ internal static class InstanceResolver
     /// <summary>Maximum number of child instances on a path; longer ones end there.</summary>
     public const int MaxDepth = 20_000;
 
-    /// <summary>Follows a path to an instance: composes its map, and records the map index of each level.</summary>
+    /// <summary>Composes the map of the instance that a search has found. Its path is named where somebody asks for it.</summary>
     /// <param name="hierarchy">The levels of the fractal.</param>
-    /// <param name="path">Indices of child instances from the root.</param>
-    /// <param name="rootMap">From the frame of the fractal to that of the query.</param>
-    /// <param name="context">Receives the map indices.</param>
-    /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
-    public static SimdAffineMap ResolveInstance(
-        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, in AffineMap rootMap, QueryContext context, out double reach) =>
-        ResolveInstance(hierarchy, path, hierarchy.Top, in rootMap, context, out reach);
-
-    /// <summary>Follows a path from a sub-fractal to an instance.</summary>
-    /// <param name="hierarchy">The levels of the fractal.</param>
-    /// <param name="path">Indices of child instances from the sub-fractal.</param>
-    /// <param name="start">Where the sub-fractal is, before chance decides.</param>
+    /// <param name="pathLength">Number of child instances that lead to it, which begin the context's buffer of the best path.</param>
+    /// <param name="start">Where the sub-fractal is that the path begins at, before chance decides.</param>
     /// <param name="rootMap">From the frame of the sub-fractal to that of the query.</param>
-    /// <param name="context">Receives the map indices.</param>
+    /// <param name="context">Has the path, and receives the instance.</param>
     /// <param name="reach">The largest absolute coordinate of a frame's origin on the way, in the frame of the query.</param>
     public static SimdAffineMap ResolveInstance(
-        this FractalHierarchy hierarchy, ReadOnlySpan<int> path, LevelState start, in AffineMap rootMap, QueryContext context,
-        out double reach)
+        this FractalHierarchy hierarchy, int pathLength, LevelState start, in AffineMap rootMap, QueryContext context, out double reach)
     {
         var map = new SimdAffineMap(rootMap);
         var maxTranslation = Vector256.Abs(map.Translation);
+        var state = hierarchy.HasPicks ? hierarchy.Resolve(start) : start;
+        var subFractal = hierarchy.At(state.Level);
+        foreach (var childIndex in context.BestPathBuffer(pathLength)[..pathLength])
+        {
+            var child = subFractal.Children[childIndex];
+            if (child.Group is { } group)
+            {
+                subFractal = group;
+                continue;
+            }
+
+            map = SimdAffineMap.Compose(in map, in child.Map);
+            maxTranslation = Vector256.MaxNative(maxTranslation, Vector256.Abs(map.Translation));
+            state = hierarchy.Enter(child, in state);
+            subFractal = hierarchy.At(state.Level);
+        }
+
+        context.SetInstance(hierarchy, start, pathLength, subFractal.BaseIndex);
+        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
+        return map;
+    }
+
+    /// <summary>Names an instance: appends the map index of each level on the way.</summary>
+    /// <param name="hierarchy">The levels of the fractal.</param>
+    /// <param name="path">Indices of child instances from a sub-fractal.</param>
+    /// <param name="start">Where the sub-fractal is, before chance decides.</param>
+    /// <param name="context">Receives the map indices.</param>
+    public static void AppendPath(FractalHierarchy hierarchy, ReadOnlySpan<int> path, LevelState start, QueryContext context)
+    {
         var exponent = 0L;
         int? end = null;
         var state = ResolvePicks(hierarchy, start, context);
@@ -57,8 +75,6 @@ internal static class InstanceResolver
                 }
             }
 
-            map = SimdAffineMap.Compose(in map, child.SimdMap);
-            maxTranslation = Vector256.MaxNative(maxTranslation, Vector256.Abs(map.Translation));
             if (child.HasMapsOfLevels)
             {
                 foreach (var edge in child.Edges)
@@ -117,9 +133,6 @@ internal static class InstanceResolver
         }
 
         context.ShortenPath(end ?? context.InstancePath.Length);
-        context.MeshIndex = subFractal.BaseIndex;
-        reach = SimdAffineMap.ToVector(maxTranslation).MaxAbsComponent();
-        return map;
     }
 
     /// <summary>Goes on as far as places decide, and appends what chance decided.</summary>

@@ -1,5 +1,6 @@
 using System.Runtime.InteropServices;
 using FractalEngine.Core.Bvh.Objects;
+using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Fractals.Levels.Rays;
 
 namespace FractalEngine.Core.Queries;
@@ -27,6 +28,9 @@ public sealed class QueryContext
     private readonly List<int> _savedPath = new(64);
     private int[] _pathBuffer = [];
     private int[] _bestPathBuffer = [];
+    private FractalHierarchy? _pathHierarchy;
+    private LevelState _pathStart;
+    private int _unnamedLength = -1;
     private double[] _scratch = [];
     private double[] _objectBounds = [];
     private ExpandedChildren? _expandedChildren;
@@ -43,7 +47,20 @@ public sealed class QueryContext
     /// The instance that the last query found: for each level, the outermost first, the index of the transformation in its set. Empty for
     /// a mesh. Shorter than the fractal's depth where deeper levels are below the precision of the result, or below identities without end.
     /// </summary>
-    public ReadOnlySpan<int> InstancePath => CollectionsMarshal.AsSpan(_instancePath);
+    public ReadOnlySpan<int> InstancePath
+    {
+        get
+        {
+            if (_unnamedLength >= 0)
+            {
+                var path = _bestPathBuffer.AsSpan(0, _unnamedLength);
+                _unnamedLength = -1;
+                InstanceResolver.AppendPath(_pathHierarchy!, path, _pathStart, this);
+            }
+
+            return CollectionsMarshal.AsSpan(_instancePath);
+        }
+    }
 
     /// <summary>
     /// Index of the object that the last query found in its scene, or in a deep zoom of the sub-fractal; 0 where a single shape was
@@ -109,6 +126,7 @@ public sealed class QueryContext
     internal void RestorePath()
     {
         _instancePath.Clear();
+        _unnamedLength = -1;
         _instancePath.AddRange(CollectionsMarshal.AsSpan(_savedPath));
         _savedPath.Clear();
     }
@@ -124,9 +142,28 @@ public sealed class QueryContext
         _objectQueue ??= new();
     }
 
+    /// <summary>Sets the instance that was found. Few ask for its path, so that it is named only then.</summary>
+    /// <param name="hierarchy">The levels of the fractal.</param>
+    /// <param name="start">Where the sub-fractal is that the path begins at.</param>
+    /// <param name="pathLength">Number of child instances on the path, which begin the buffer of the best path.</param>
+    /// <param name="meshIndex">Index of its base mesh.</param>
+    internal void SetInstance(FractalHierarchy hierarchy, LevelState start, int pathLength, int meshIndex)
+    {
+        // Often that of the last query, and to write a reference costs more than to compare it.
+        if (_pathHierarchy != hierarchy)
+        {
+            _pathHierarchy = hierarchy;
+        }
+
+        _pathStart = start;
+        _unnamedLength = pathLength;
+        MeshIndex = meshIndex;
+    }
+
     internal void ClearPath()
     {
         _instancePath.Clear();
+        _unnamedLength = -1;
         MeshIndex = 0;
         ChildPathLength = 0;
     }

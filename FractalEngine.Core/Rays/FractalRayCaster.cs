@@ -83,8 +83,7 @@ internal sealed class FractalRayCaster(
         in RaySearch search, int pathLength, in AffineMap map, QueryContext context)
     {
         context.ClearPath();
-        var instance = hierarchy.ResolveInstance(
-            context.BestPathBuffer(pathLength)[..pathLength], top, in map, context, out _);
+        var instance = hierarchy.ResolveInstance(pathLength, top, in map, context, out _);
         context.ChildPathLength = search.Proxy is null ? pathLength : -1;
         return search.Proxy is { } proxy ? SimdAffineMap.Compose(in instance, in proxy.Map) : instance;
     }

@@ -20,7 +20,7 @@ public sealed class AreaLightSampler
     private readonly Dictionary<int, (AreaLightNode Node, int Slot)> _places = [];
     private readonly AreaLightNode? _root;
     private readonly AreaLightModel?[] _models;
-    private readonly SimdAffineMap[] _maps;
+    private readonly AffineMap[] _maps;
     private readonly double[] _norms;
     private readonly bool _isUniform;
 
@@ -39,13 +39,13 @@ public sealed class AreaLightSampler
         _isUniform = isUniform;
         var known = scene.Models.ToDictionary(static model => model, model => CreateOrNull(model, radianceOf));
         _models = [.. scene.Objects.Select(placed => known[placed.Model])];
-        _maps = [.. scene.Objects.Select(static placed => new SimdAffineMap(placed.ObjectToWorld))];
+        _maps = [.. scene.Objects.Select(static placed => placed.ObjectToWorld)];
         _norms = [.. scene.Objects.Select(static placed => BoundingSphere.OperatorNormBound(placed.ObjectToWorld.Linear))];
         _root = AreaLightNode.Build(
             [.. _models.Select((model, index) =>
-                model?.Root?.Total.Transform(_maps[index].ToAffineMap(), _norms[index], isUniform) ?? default)],
+                model?.Root?.Total.Transform(_maps[index], _norms[index], isUniform) ?? default)],
             _places);
-        StorageBytes = (_root?.StorageBytes ?? 0) + known.Values.Sum(static model => model?.StorageBytes ?? 0) + (148L * _maps.Length);
+        StorageBytes = (_root?.StorageBytes ?? 0) + known.Values.Sum(static model => model?.StorageBytes ?? 0) + (116L * _maps.Length);
     }
 
     /// <summary>True where nothing shines that can be chosen.</summary>

@@ -181,6 +181,28 @@ public sealed class QueryPrimitivesTests
     }
 
     [Fact]
+    public void InstancePath_ThatNobodyAskedForBefore_IsThatOfTheLastQuery()
+    {
+        Fractal[] fractals = [Samples.Repeated(2, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.Move(0, 5, 0)), Samples.Repeated(3, Samples.Move(9, 0, 0))];
+        var context = new QueryContext();
+        foreach (var (fractal, x) in new[] { (fractals[0], 0.0), (fractals[1], 27.0), (fractals[0], 3.0) })
+        {
+            var position = new Vector(x, 5, 0);
+            Assert.True(Collider.For(fractals[0]).TryFindClosest(new(7, 7, 7), 100, context, out _));
+            Assert.True(Collider.For(fractal).TryFindClosest(position, 100, context, out var closest));
+            Assert.Equal(Collider.For(fractal).FindClosest(position).InstancePath, context.InstancePath.ToArray());
+            Assert.NotEmpty(context.InstancePath.ToArray());
+            var caster = RayCaster.For(fractal);
+            Assert.True(caster.TryFindNearest(new(position, closest.Point - position), context, out _));
+            Assert.False(caster.TryFindNearest(new(position, position - closest.Point), context, out _));
+            Assert.Empty(context.InstancePath.ToArray());
+            Assert.True(Collider.For(fractal).TryFindClosest(position, 100, context, out _));
+            Assert.False(caster.HitsAny(new(position, position - closest.Point), context));
+            Assert.Empty(context.InstancePath.ToArray());
+        }
+    }
+
+    [Fact]
     public void SavePath_ThenRestorePath_GivesThePathBackOnce()
     {
         var context = new QueryContext();

@@ -15,8 +15,9 @@ internal sealed class ChildInstance
     private readonly int _firstEdge;
     private readonly int _edgeCount;
 
-    // Null where there is one edge: its set has the map, and wide sets take much memory.
-    private readonly ComposedMap? _composedMap;
+    // Those of the set where there is one edge: wide sets take much memory.
+    private readonly AffineMap[] _maps;
+    private readonly int _mapIndex;
 
     /// <summary>Composes an instance from edges.</summary>
     /// <param name="edges">At least one edge, the outermost first.</param>
@@ -50,7 +51,7 @@ internal sealed class ChildInstance
         HasMapsOfLevels = areMapsOfLevels;
         InverseScaleSquared = 1 / ScaleSquared;
         InverseScale = Math.Sqrt(InverseScaleSquared);
-        _composedMap = edgeCount > 1 ? new(new(map)) : null;
+        (_maps, _mapIndex) = edgeCount > 1 ? ([map], 0) : (Edges[0].Set.Maps, Edges[0].MapIndex);
         _inverseSimdMap = new(inverse);
     }
 
@@ -76,14 +77,7 @@ internal sealed class ChildInstance
     public bool HasMapsOfLevels { get; }
 
     /// <summary>The map from the child's frame to that of the parent.</summary>
-    public AffineMap Map => _composedMap is null ? _edges[_firstEdge].Map : _composedMap.Map.ToAffineMap();
-
-    /// <summary>The map from the child's frame to that of the parent, for kernels.</summary>
-    public SimdAffineMap SimdMap
-    {
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        get => _composedMap is null ? new(in _edges[_firstEdge].Set.Maps[_edges[_firstEdge].MapIndex]) : _composedMap.Map;
-    }
+    public ref readonly AffineMap Map => ref _maps[_mapIndex];
 
     /// <summary>The map from the parent's frame to that of the child, for kernels.</summary>
     public ref readonly SimdAffineMap InverseSimdMap => ref _inverseSimdMap;
@@ -116,12 +110,9 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (29 * sizeof(double)) + (_composedMap is null ? 0 : 18 * sizeof(double)) + (24 * _edgeCount);
+    public long StorageBytes => (29 * sizeof(double)) + (_edgeCount > 1 ? 12 * sizeof(double) : 0) + (24 * _edgeCount);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>
     public long RemainingLevels(long parentLevels) => LevelStep.RemainingLevels(parentLevels);
-
-    /// <summary>The product of the maps of several edges.</summary>
-    private sealed record ComposedMap(SimdAffineMap Map);
 }

@@ -71,7 +71,7 @@ internal readonly struct AffineFrame(Vector256<double> position, in SimdAffineMa
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     public AffineFrame Enter(ChildInstance child) => new(
-        _position, SimdAffineMap.Compose(in _map, child.SimdMap), SimdAffineMap.Compose(in child.InverseSimdMap, in _inverse));
+        _position, SimdAffineMap.Compose(in _map, in child.Map), SimdAffineMap.Compose(in child.InverseSimdMap, in _inverse));
 
     /// <inheritdoc/>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

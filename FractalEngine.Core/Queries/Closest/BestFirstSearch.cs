@@ -115,7 +115,7 @@ internal sealed class BestFirstSearch(FractalHierarchy hierarchy, TriangleBvh[] 
         return new(
             hierarchy.At(child, state.Level),
             state,
-            SimdAffineMap.Compose(in parent.Map, child.SimdMap),
+            SimdAffineMap.Compose(in parent.Map, in child.Map),
             SimdAffineMap.Compose(in child.InverseSimdMap, in parent.Inverse),
             parentNode,
             childIndex,

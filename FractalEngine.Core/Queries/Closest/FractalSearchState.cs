@@ -106,9 +106,6 @@ internal ref struct FractalSearchState
     /// <summary>True when the search has become so long that exact distances of sub-fractals' hulls pay.</summary>
     public readonly bool NeedsTightBounds => BoundTests > MaxRoughBoundTests;
 
-    /// <summary>The indices of the child instances that lead to the closest triangle.</summary>
-    public readonly ReadOnlySpan<int> ClosestPath => _closestPath[..ClosestDepth];
-
     /// <summary>The queue of a <see cref="BestFirstSearch"/>.</summary>
     public readonly ExpandedChildren ExpandedChildren => _context.ExpandedChildren;
 

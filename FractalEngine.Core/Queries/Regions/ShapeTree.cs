@@ -143,7 +143,7 @@ internal sealed class ShapeTree
         }
 
         context.ClearPath();
-        _hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
+        InstanceResolver.AppendPath(_hierarchy, path, _hierarchy.Top, context);
         return context.InstancePath.ToArray();
     }
 
@@ -163,8 +163,8 @@ internal sealed class ShapeTree
             foreach (var (path, _) in paths.OrderBy(
                 static path => path.Value, Comparer<int[]>.Create(static (path1, path2) => path1.AsSpan().SequenceCompareTo(path2))))
             {
-                context.ClearPath();
-                var map = _hierarchy.ResolveInstance(path, AffineMap.Identity, context, out _);
+                path.CopyTo(context.BestPathBuffer(path.Length));
+                var map = _hierarchy.ResolveInstance(path.Length, _hierarchy.Top, AffineMap.Identity, context, out _);
                 var count = images.Count;
                 images.TryAdd(map.ToAffineMap(), int.MaxValue);
                 if (images.Count == count)

@@ -42,9 +42,9 @@ public sealed class BestFirstSearchTests
             var expected = faces.FindClosest(position).Distance;
             Near.Equal(expected, Math.Sqrt(state.ClosestDistanceSquared), 1e-11);
             context.ClearPath();
-            var instance = hierarchy.ResolveInstance(state.ClosestPath, AffineMap.Identity, context, out _);
+            var instance = hierarchy.ResolveInstance(state.ClosestDepth, hierarchy.Top, AffineMap.Identity, context, out _);
             ClosestPointFactory.OnInstance(
-                hierarchy.BaseMeshAt(state.ClosestPath), state.ClosestFace, in instance, in position, out var closest);
+                hierarchy.BaseMeshes[context.MeshIndex], state.ClosestFace, in instance, in position, out var closest);
             Near.Equal(expected, closest.Distance, 1e-11);
             var map = AffineMap.Identity;
             for (var level = 0; level < context.InstancePath.Length; level++)
@@ -70,7 +70,7 @@ public sealed class BestFirstSearchTests
             var state = new FractalSearchState(double.PositiveInfinity, 0, 1, 10, context);
             state.UpdateClosest(1, face, 0, expanded);
             Assert.Equal(face % 4, state.ClosestFace);
-            var map = hierarchy.ResolveInstance(state.ClosestPath, AffineMap.Identity, context, out _).ToAffineMap();
+            var map = hierarchy.ResolveInstance(state.ClosestDepth, hierarchy.Top, AffineMap.Identity, context, out _).ToAffineMap();
             var (a, b, c) = fractal.BaseMesh.Face(state.ClosestFace);
             Assert.Equal(3, context.InstancePath.Length);
             var (imageA, imageB, imageC) = mesh.Face(face);

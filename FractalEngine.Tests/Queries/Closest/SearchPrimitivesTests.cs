@@ -121,7 +121,8 @@ public sealed class SearchPrimitivesTests
     [Fact]
     public void FractalSearchState_AfterAHit_ExcludesWhatIsNoCloserUpToEpsilon()
     {
-        var search = new FractalSearchState(10, 1, 5, 8, new());
+        var context = new QueryContext();
+        var search = new FractalSearchState(10, 1, 5, 8, context);
         Assert.Equal((4.0, 0.25, -1, true), (search.BoundFactor, search.InverseBoundFactor, search.ClosestFace, search.IsComplete));
         Assert.True(search.ClosestDistanceSquared > 100);
         Near.Equal(100, search.ClosestDistanceSquared, 1e-11);
@@ -133,7 +134,7 @@ public sealed class SearchPrimitivesTests
         search.RecordChild(2, 5);
         search.UpdateClosest(9, 17, 2);
         Assert.Equal((17, 2, 9.0), (search.ClosestFace, search.ClosestDepth, search.ClosestDistanceSquared));
-        Assert.Equal(new[] { 3, 4 }, search.ClosestPath.ToArray());
+        Assert.Equal(new[] { 3, 4 }, context.BestPathBuffer(2)[..2].ToArray());
         // What differs by no more than rounding counts as equal.
         Assert.True(search.CutoffSquared < 9);
         Near.Equal(9, search.CutoffSquared, 1e-12);
@@ -200,14 +201,15 @@ public sealed class SearchPrimitivesTests
     [Fact]
     public void RecordChild_DeeperThanTheBuffer_KeepsTheWholePath()
     {
-        var search = new FractalSearchState(10, 0, 1, 1, new());
+        var context = new QueryContext();
+        var search = new FractalSearchState(10, 0, 1, 1, context);
         for (var depth = 0; depth < 1000; depth++)
         {
             search.RecordChild(depth, depth % 7);
         }
 
         search.UpdateClosest(1, 0, 1000);
-        Assert.Equal(Enumerable.Range(0, 1000).Select(depth => depth % 7), search.ClosestPath.ToArray());
+        Assert.Equal(Enumerable.Range(0, 1000).Select(depth => depth % 7), context.BestPathBuffer(1000)[..1000].ToArray());
         var slice = search.ScratchSlice(5000, 30);
         Assert.Equal(30, slice.Length);
     }

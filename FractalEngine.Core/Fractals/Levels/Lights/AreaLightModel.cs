@@ -88,7 +88,7 @@ internal sealed class AreaLightModel
             node = node.Groups[slot] ?? _nodes.GetValueOrDefault(state.Level);
             if (child.Group is null)
             {
-                walk.Enter(child.SimdMap, child.OperatorNormBound, node);
+                walk.Enter(in child.Map, child.OperatorNormBound, node);
             }
         }
 

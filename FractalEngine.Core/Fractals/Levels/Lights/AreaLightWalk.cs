@@ -37,7 +37,7 @@ internal struct AreaLightWalk(Vector position, Vector normal, double number, boo
     /// <param name="map">From there to the present frame.</param>
     /// <param name="norm">Upper bound of the factor by which the map lengthens vectors.</param>
     /// <param name="node">The outermost node in that frame.</param>
-    public void Enter(in SimdAffineMap map, double norm, AreaLightNode? node)
+    public void Enter(in AffineMap map, double norm, AreaLightNode? node)
     {
         _map = SimdAffineMap.Compose(in _map, in map);
         _norm *= norm;
