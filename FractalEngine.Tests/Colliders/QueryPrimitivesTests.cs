@@ -6,6 +6,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
+using FractalEngine.Core.Rays;
 using FractalEngine.Core.SceneQueries;
 using FractalEngine.Tests.Support;
 
@@ -183,21 +184,23 @@ public sealed class QueryPrimitivesTests
     [Fact]
     public void InstancePath_ThatNobodyAskedForBefore_IsThatOfTheLastQuery()
     {
-        Fractal[] fractals = [Samples.Repeated(2, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.Move(0, 5, 0)), Samples.Repeated(3, Samples.Move(9, 0, 0))];
+        var two = Samples.Repeated(2, Samples.MoveAndScale(1, 0, 0, 0.5), Samples.Move(0, 5, 0));
+        var three = Samples.Repeated(3, Samples.Move(9, 0, 0));
+        var away = new Ray(1000 * Vector.One, Vector.One);
         var context = new QueryContext();
-        foreach (var (fractal, x) in new[] { (fractals[0], 0.0), (fractals[1], 27.0), (fractals[0], 3.0) })
+        foreach (var (fractal, x) in new[] { (two, 0.0), (three, 27.0), (two, 3.0) })
         {
-            var position = new Vector(x, 5, 0);
-            Assert.True(Collider.For(fractals[0]).TryFindClosest(new(7, 7, 7), 100, context, out _));
-            Assert.True(Collider.For(fractal).TryFindClosest(position, 100, context, out var closest));
-            Assert.Equal(Collider.For(fractal).FindClosest(position).InstancePath, context.InstancePath.ToArray());
-            Assert.NotEmpty(context.InstancePath.ToArray());
-            var caster = RayCaster.For(fractal);
-            Assert.True(caster.TryFindNearest(new(position, closest.Point - position), context, out _));
-            Assert.False(caster.TryFindNearest(new(position, position - closest.Point), context, out _));
+            var (collider, caster, position) = (Collider.For(fractal), RayCaster.For(fractal), new Vector(x, 5, 0));
+            Assert.True(Collider.For(two).TryFindClosest(7 * Vector.One, 100, context, out _));
+            Assert.True(collider.TryFindClosest(position, 100, context, out var closest));
+            var path = collider.FindClosest(position).InstancePath;
+            Assert.Equal(path, context.InstancePath.ToArray());
+            Assert.NotEmpty(path);
+            Assert.True(caster.TryFindNearest(new(position + Vector.One, closest.Point - position - Vector.One), context, out _));
+            Assert.False(caster.TryFindNearest(away, context, out _));
             Assert.Empty(context.InstancePath.ToArray());
-            Assert.True(Collider.For(fractal).TryFindClosest(position, 100, context, out _));
-            Assert.False(caster.HitsAny(new(position, position - closest.Point), context));
+            Assert.True(collider.TryFindClosest(position, 100, context, out _));
+            Assert.False(caster.HitsAny(away, context));
             Assert.Empty(context.InstancePath.ToArray());
         }
     }

@@ -110,7 +110,7 @@ internal sealed class ChildInstance
     public LevelStep LevelStep { get; }
 
     /// <summary>Number of bytes of the maps and edges.</summary>
-    public long StorageBytes => (29 * sizeof(double)) + (_edgeCount > 1 ? 12 * sizeof(double) : 0) + (24 * _edgeCount);
+    public long StorageBytes => (29 * sizeof(double)) + (_edgeCount > 1 ? 15 * sizeof(double) : 0) + (24 * _edgeCount);
 
     /// <summary>Computes the remaining levels of the child.</summary>
     /// <param name="parentLevels">Remaining levels of the parent.</param>

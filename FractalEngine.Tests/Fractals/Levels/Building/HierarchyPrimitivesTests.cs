@@ -112,8 +112,8 @@ public sealed class HierarchyPrimitivesTests
         var single = new ChildInstance(edges, 1, 1);
         Assert.Equal((set.Maps[0], false), (single.Map, single.HasMapsOfLevels));
         Assert.True(new ChildInstance(edges, 0, 1).HasMapsOfLevels);
-        // A composed map is kept twice, and an edge is three words.
-        Assert.Equal(single.StorageBytes + (18 * 8) + 24, child.StorageBytes);
+        // A composed map is kept in an array, and an edge is three words.
+        Assert.Equal(single.StorageBytes + (15 * 8) + 24, child.StorageBytes);
         Assert.Equal(3, new ChildInstance(edges).Edges.Length);
         Assert.Null(child.Group);
     }
