@@ -4,7 +4,6 @@ using FractalEngine.Core.Bvh.Boxes;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Geometry.Triangles;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
