@@ -76,7 +76,9 @@ internal sealed class TextPrompt(
                 Pick(1);
                 break;
             default:
-                Edit(() => _edit.Handle(pressed.Key, selects: false, pressed.Modifiers.HasFlag(KeyModifiers.Control)));
+                // Ctrl+U is the only chord: nothing is selected that others would copy.
+                var isChord = pressed.Key == Key.U && pressed.Modifiers.HasFlag(KeyModifiers.Control);
+                Edit(() => _edit.Handle(pressed.Key, selects: false, isChord));
                 break;
         }
     }
