@@ -230,47 +230,19 @@ public sealed class FrameRenderer : IDisposable
     /// <returns>Null beside all lines that answer something, and where the panel is not on the screen yet.</returns>
     public int? AnswerAt(OverlayPanel panel, double x, double y) => _overlayPass.AnswerAt(panel, x, y);
 
-    /// <summary>Presents the last frame in a window.</summary>
-    /// <param name="window">Window of this renderer's context.</param>
-    /// <param name="overlay">Panels over the frame. They can change without drawing the scene again.</param>
-    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
-    public void Present(RenderWindow window, params IReadOnlyList<OverlayPanel> overlay) => Present(window, null, overlay);
-
-    /// <summary>Presents the last frame in a window, below an image.</summary>
-    /// <param name="window">Window of this renderer's context.</param>
-    /// <param name="layer">Image over the frame; null for none. It can change without drawing the scene again.</param>
-    /// <param name="overlay">Panels over both.</param>
-    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
-    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
-    public void Present(RenderWindow window, ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay) =>
-        Present(window, layer, null, overlay);
-
     /// <summary>Presents the last frame in a window, below an image and a user interface.</summary>
     /// <param name="window">Window of this renderer's context.</param>
-    /// <param name="layer">Image over the frame; null for none. It can change without drawing the scene again.</param>
+    /// <param name="layer">Image over the frame; null for none.</param>
     /// <param name="ui">User interface over both, as it was built last; null for none.</param>
-    /// <param name="overlay">Panels over all of these.</param>
+    /// <param name="overlay">Panels over all of these. All three can change without drawing the scene again.</param>
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
-    public void Present(RenderWindow window, ImageLayer? layer, UserInterface? ui, params IReadOnlyList<OverlayPanel> overlay)
+    public void Present(
+        RenderWindow window, ImageLayer? layer = null, UserInterface? ui = null, params IReadOnlyList<OverlayPanel> overlay)
     {
         Resolve(layer, ui, overlay).CopyToWindow(window.Width, window.Height);
         window.SwapBuffers();
     }
-
-    /// <summary>Reads the last frame back as an image.</summary>
-    /// <param name="overlay">Panels over the frame; none for the scene alone.</param>
-    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
-    /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
-    public PixelImage Capture(params IReadOnlyList<OverlayPanel> overlay) => Capture(null, overlay);
-
-    /// <summary>Reads the last frame back as an image, below another image.</summary>
-    /// <param name="layer">Image over the frame; null for none.</param>
-    /// <param name="overlay">Panels over both; none for the scene alone.</param>
-    /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
-    /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
-    /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
-    public PixelImage Capture(ImageLayer? layer, params IReadOnlyList<OverlayPanel> overlay) => Capture(layer, null, overlay);
 
     /// <summary>Reads the last frame back as an image, below another image and a user interface.</summary>
     /// <param name="layer">Image over the frame; null for none.</param>
@@ -279,7 +251,7 @@ public sealed class FrameRenderer : IDisposable
     /// <exception cref="InvalidOperationException">No frame has been drawn yet.</exception>
     /// <exception cref="ArgumentException">The image has another size than the frame.</exception>
     /// <exception cref="GlException">The driver reports an error while the pixels are read.</exception>
-    public PixelImage Capture(ImageLayer? layer, UserInterface? ui, params IReadOnlyList<OverlayPanel> overlay)
+    public PixelImage Capture(ImageLayer? layer = null, UserInterface? ui = null, params IReadOnlyList<OverlayPanel> overlay)
     {
         var frame = Resolve(layer, ui, overlay);
         var pixels = new byte[4 * frame.Width * frame.Height];
@@ -298,21 +270,17 @@ public sealed class FrameRenderer : IDisposable
         }
 
         var frame = Resolve(null, null, []);
-        var light = new float[3 * frame.Width * frame.Height];
-        frame.ReadLight(light);
-        // OpenGL counts rows from the bottom.
         var stride = 3 * frame.Width;
-        var row = new float[stride];
-        for (var y = 0; y < frame.Height / 2; y++)
+        var light = new float[stride * frame.Height];
+        frame.ReadLight(light);
+        var image = new FloatImage(frame.Width, frame.Height, new float[light.Length]);
+        // OpenGL counts rows from the bottom.
+        for (var y = 0; y < frame.Height; y++)
         {
-            var top = light.AsSpan(y * stride, stride);
-            var bottom = light.AsSpan((frame.Height - 1 - y) * stride, stride);
-            top.CopyTo(row);
-            bottom.CopyTo(top);
-            row.CopyTo(bottom);
+            light.AsSpan(y * stride, stride).CopyTo(image.Pixels.AsSpan((frame.Height - 1 - y) * stride));
         }
 
-        return new(frame.Width, frame.Height, light);
+        return image;
     }
 
     /// <summary>Deletes the framebuffers and shaders. Harmless when repeated.</summary>

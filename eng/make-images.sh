@@ -145,7 +145,7 @@ make_image() {
             run animate assets/scenes/stair.sdo --simulate --output "$work/stair.apng" --frames 48 --fps 12 --resolution 320x180
             mv "$work/stair.apng" "$images/stair.png"
             ;;
-        window-fractal) window "$1" assets/fractals/tree.fdo 'key F4' ;;
+        window-fractal) window "$1" FractalEngine.Parsing/Templates/tree.fdo 'key F4' ;;
         window-keys) window "$1" assets/scenes/gallery.sdo 'key h' 'type view' ;;
         window-selection)
             window "$1" assets/scenes/playground.sdo 'key F6' 'key m' 'mousemove 300 575 click 1' 'mousemove 662 430 click 1' \

@@ -50,7 +50,7 @@ internal static class ApproximationImage
             var settings = new RenderSettings();
             using var scene = new SceneRenderer(context, DrawableScene.Prepare(scenes[index], settings));
             renderer.Draw(scene, view, TileSize, TileSize, settings);
-            return renderer.Capture(OverlayPanel.OfText(OverlayAnchor.BottomLeft, caption));
+            return renderer.Capture(overlay: OverlayPanel.OfText(OverlayAnchor.BottomLeft, caption));
         }
     }
 

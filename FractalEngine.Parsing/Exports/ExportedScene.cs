@@ -102,7 +102,7 @@ public sealed class ExportedScene
             throw new FractalLimitException(string.Create(
                 CultureInfo.InvariantCulture,
                 $"{placed.Model.Name} has more faces than the limit of {_settings.MaxFaces}: "
-                + $"its base has {fractal.BaseMesh.FaceCount}, and {exception.Message}"), exception);
+                + $"its base has {fractal.BaseMesh.FaceCount}, and {exception.Message}; --depth or --instances writes fewer"), exception);
         }
     }
 

@@ -12,7 +12,7 @@ namespace FractalEngine.Parsing.Gltf;
 /// <param name="materials">Converts the materials.</param>
 internal sealed class GltfMeshBuilder(GltfMaterials materials)
 {
-    private readonly ObjBlockBuilder _elements = new();
+    private readonly MeshBlockBuilder _elements = new();
     private readonly List<MeshGroup> _groups = [];
 
     /// <summary>Number of primitives that are points or lines.</summary>
@@ -41,7 +41,7 @@ internal sealed class GltfMeshBuilder(GltfMaterials materials)
     public Mesh Complete()
     {
         var block = _elements.ToBlock();
-        return ObjMeshAssembler.Assemble([block], block.Counts, threadCount: 1).WithGroups([.. _groups], []);
+        return MeshAssembler.Assemble([block], block.Counts, threadCount: 1).WithGroups([.. _groups], []);
     }
 
     private void AddPrimitive(MeshPrimitive primitive, Accessor positions, string objectName, string meshName, AffineMap toWorld)
@@ -75,10 +75,10 @@ internal sealed class GltfMeshBuilder(GltfMaterials materials)
             _groups.Add(new(before.Faces, faceCount, objectName, meshName, material?.Name ?? "", 0));
         }
 
-        ObjCorner CornerAt(int index) => (uint)index < (uint)positions.Count
+        PolygonCorner CornerAt(int index) => (uint)index < (uint)positions.Count
             ? new(
-                before.Positions + index, hasCoordinates ? before.TextureCoordinates + index : ObjCorner.None,
-                hasNormals ? before.Normals + index : ObjCorner.None)
+                before.Positions + index, hasCoordinates ? before.TextureCoordinates + index : PolygonCorner.None,
+                hasNormals ? before.Normals + index : PolygonCorner.None)
             : throw new InvalidDataException(FormattableString.Invariant($"the index {index} is that of no vertex"));
     }
 

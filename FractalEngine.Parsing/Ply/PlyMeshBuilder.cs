@@ -8,7 +8,7 @@ internal sealed class PlyMeshBuilder
 {
     private static readonly int MaxFaces = Array.MaxLength / 3;
 
-    private readonly ObjBlockBuilder _block = new();
+    private readonly MeshBlockBuilder _block = new();
     private readonly List<double> _normals = [];
     private readonly List<double> _textureCoordinates = [];
     private bool _hasNormals;
@@ -72,7 +72,7 @@ internal sealed class PlyMeshBuilder
     public Mesh Complete()
     {
         var block = _block.ToBlock();
-        var mesh = ObjMeshAssembler.Assemble([block], block.Counts, threadCount: 1);
+        var mesh = MeshAssembler.Assemble([block], block.Counts, threadCount: 1);
         if (_hasTextureCoordinates && mesh.FaceCount > 0)
         {
             mesh = mesh.WithTextureCoordinates([.. _textureCoordinates], mesh.VertexIndices);

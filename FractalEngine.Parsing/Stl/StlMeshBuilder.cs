@@ -10,7 +10,7 @@ internal sealed class StlMeshBuilder
     private readonly Dictionary<Vector, int> _vertices = [];
     private readonly List<double> _positions = [];
     private readonly List<int> _indices = [];
-    private readonly ObjGroups _groups = new();
+    private readonly MeshGroupList _groups = new();
 
     /// <summary>Begins a part with a name, which may be empty.</summary>
     public void BeginSolid(string name) => _groups.ChangeObject(name, _indices.Count / 3);

@@ -7,7 +7,7 @@ namespace FractalEngine.Parsing.Wavefront;
 /// <summary>What an OBJ file has declared so far, in the order of its lines.</summary>
 internal sealed class ObjContents
 {
-    private readonly List<ObjBlock> _blocks = [];
+    private readonly List<MeshBlock> _blocks = [];
     private readonly List<string> _materialLibraries = [];
     private readonly List<SourcePosition> _libraryPositions = [];
     private readonly HashSet<string> _knownLibraries = [];
@@ -23,16 +23,16 @@ internal sealed class ObjContents
     public RepeatedWarning ShortFaces { get; } = new("such faces");
 
     /// <summary>Numbers of elements in all blocks so far.</summary>
-    public ObjCounts Counts { get; private set; }
+    public ElementCounts Counts { get; private set; }
 
     /// <summary>Names and materials of faces.</summary>
-    public ObjGroups Groups { get; } = new();
+    public MeshGroupList Groups { get; } = new();
 
     /// <summary>Whether there is a vertex, face, group or material.</summary>
     public bool HasDeclaration { get; set; }
 
     /// <summary>Adds elements behind all others.</summary>
-    public void Add(ObjBlock block)
+    public void Add(MeshBlock block)
     {
         block.Before = Counts;
         _blocks.Add(block);
@@ -56,7 +56,7 @@ internal sealed class ObjContents
     /// <param name="threadCount">Number of threads that merge the blocks, at least one.</param>
     /// <param name="byteCount">Size of the file in bytes.</param>
     public ParsedObj Complete(int threadCount, long byteCount) =>
-        new(ObjMeshAssembler.Assemble(_blocks, Counts, threadCount).WithGroups(Groups.Complete(Counts.Faces), [.. _materialLibraries]),
+        new(MeshAssembler.Assemble(_blocks, Counts, threadCount).WithGroups(Groups.Complete(Counts.Faces), [.. _materialLibraries]),
             CreateWarnings())
         {
             MaterialLibraryPositions = [.. _libraryPositions],

@@ -13,10 +13,10 @@ public abstract class ObjElementParser : Parser
 {
     private static readonly SearchValues<char> WordEnds = SearchValues.Create(" \t\r\n#\\");
 
-    private readonly ObjCounts _before;
-    private readonly List<ObjCorner> _corners = [];
+    private readonly ElementCounts _before;
+    private readonly List<PolygonCorner> _corners = [];
 
-    private protected ObjElementParser(SourceText source, ObjContents contents, ObjCounts before)
+    private protected ObjElementParser(SourceText source, ObjContents contents, ElementCounts before)
         : base(source)
     {
         Contents = contents;
@@ -27,10 +27,10 @@ public abstract class ObjElementParser : Parser
     private protected ObjContents Contents { get; }
 
     /// <summary>The elements of this text.</summary>
-    private protected ObjBlockBuilder Elements { get; } = new();
+    private protected MeshBlockBuilder Elements { get; } = new();
 
     /// <summary>Numbers of elements in the file so far.</summary>
-    private protected ObjCounts Counts => _before + Elements.Counts;
+    private protected ElementCounts Counts => _before + Elements.Counts;
 
     /// <inheritdoc/>
     /// <remarks>A backslash before a line break joins two lines.</remarks>
@@ -53,9 +53,9 @@ public abstract class ObjElementParser : Parser
             return false;
         }
 
-        Span<double> numbers = stackalloc double[ObjColour.MaxNumbers];
+        Span<double> numbers = stackalloc double[VertexColour.MaxNumbers];
         ParseOptionalNumbers(rest, numbers, out var count, out rest);
-        if (ObjColour.Find(numbers, count) is { Length: > 0 } colour)
+        if (VertexColour.Find(numbers, count) is { Length: > 0 } colour)
         {
             Elements.AddColour(colour);
         }
@@ -168,10 +168,10 @@ public abstract class ObjElementParser : Parser
     /// <summary>
     /// Parses one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>. Nothing behind a slash means none.
     /// </summary>
-    private bool ParseCorner(Cursor cursor, ObjCounts counts, out ObjCorner corner, out Cursor rest)
+    private bool ParseCorner(Cursor cursor, ElementCounts counts, out PolygonCorner corner, out Cursor rest)
     {
-        var texture = ObjCorner.None;
-        var normal = ObjCorner.None;
+        var texture = PolygonCorner.None;
+        var normal = PolygonCorner.None;
         corner = default;
         if (!ParseIndex(cursor, "vertex", counts.Positions, isRequired: true, out var position, out rest))
         {
@@ -232,7 +232,7 @@ public abstract class ObjElementParser : Parser
         ThrowIf(isRequired, cursor, message);
         // A face can do without normals or texture coordinates, and some programs write numbers of ones that they omit.
         Contents.InvalidIndices.Add(PositionOf(cursor), $"{message}: the index is ignored");
-        index = ObjCorner.None;
+        index = PolygonCorner.None;
         return true;
     }
 

@@ -7,14 +7,14 @@ using FractalEngine.Parsing.Text.Numbers;
 namespace FractalEngine.Parsing.Wavefront;
 
 /// <summary>Scans the lines of vertices, texture coordinates, normals and faces, each into the arrays of its elements.</summary>
-internal abstract class ObjElementScanner : ObjBlockBuilder
+internal abstract class ObjElementScanner : MeshBlockBuilder
 {
     private int _requiredPositions;
     private int _requiredTextureCoordinates;
     private int _requiredNormals;
 
     /// <summary>Numbers of elements that must come before the block, or some index does not exist.</summary>
-    public ObjCounts Required => new(_requiredPositions, _requiredTextureCoordinates, _requiredNormals, 0);
+    public ElementCounts Required => new(_requiredPositions, _requiredTextureCoordinates, _requiredNormals, 0);
 
     /// <summary>Length of the block.</summary>
     private protected int End { get; private set; }
@@ -132,9 +132,9 @@ internal abstract class ObjElementScanner : ObjBlockBuilder
     [MethodImpl(MethodImplOptions.NoInlining)]
     private nint ScanColour(ref byte text, nint position)
     {
-        Span<double> numbers = stackalloc double[ObjColour.MaxNumbers];
+        Span<double> numbers = stackalloc double[VertexColour.MaxNumbers];
         position = ScanOptionalNumbers(ref text, position, numbers, out var count);
-        var colour = ObjColour.Find(numbers, count);
+        var colour = VertexColour.Find(numbers, count);
         if (position != Utf8NumberReader.None && colour.Length > 0)
         {
             AddColour(colour);
@@ -261,7 +261,7 @@ internal abstract class ObjElementScanner : ObjBlockBuilder
     /// <param name="position">Position of the number.</param>
     /// <param name="count">Number of such elements in the block so far.</param>
     /// <param name="maxNumber">Becomes at least the absolute value of the number.</param>
-    /// <param name="index">Receives the index as <see cref="ObjBlock"/> has it.</param>
+    /// <param name="index">Receives the index as <see cref="MeshBlock"/> has it.</param>
     [MethodImpl(MethodImplOptions.AggressiveInlining)]
     private nint ScanIndex(ref byte text, nint position, int count, ref int maxNumber, out int index)
     {
@@ -270,7 +270,7 @@ internal abstract class ObjElementScanner : ObjBlockBuilder
         if (end == Utf8NumberReader.None && Unsafe.Add(ref text, position) == '-')
         {
             end = Utf8NumberReader.ReadInteger(ref text, position + 1, out number);
-            index = ObjBlock.BlockStart + count - number;
+            index = MeshBlock.BlockStart + count - number;
             _hasRelativeIndices = true;
         }
 

@@ -16,7 +16,7 @@ public sealed class ObjParser : ObjElementParser
     // Characters between two reports of progress, at least.
     private const int ProgressInterval = 1 << 20;
 
-    private ObjParser(SourceText source, ObjContents contents, ObjCounts before)
+    private ObjParser(SourceText source, ObjContents contents, ElementCounts before)
         : base(source, contents, before)
     {
     }
@@ -45,7 +45,7 @@ public sealed class ObjParser : ObjElementParser
     /// <param name="source">Text of the line.</param>
     /// <param name="contents">Receives what the line declares.</param>
     /// <param name="before">Has the number of faces before the line.</param>
-    internal static void ParseStatement(SourceText source, ObjContents contents, ObjCounts before) =>
+    internal static void ParseStatement(SourceText source, ObjContents contents, ElementCounts before) =>
         new ObjParser(source, contents, before).ParseLines(null);
 
     /// <summary>Creates the error of a file that declares nothing.</summary>

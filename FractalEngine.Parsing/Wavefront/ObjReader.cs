@@ -184,7 +184,7 @@ public sealed class ObjReader
     }
 
     /// <summary>Adds a block to the contents, all before it being there.</summary>
-    private void Add(byte[] buffer, ObjBlockBytes block, ObjTextKind kind, ObjScanner scanner, ObjBlock elements)
+    private void Add(byte[] buffer, ObjBlockBytes block, ObjTextKind kind, ObjScanner scanner, MeshBlock elements)
     {
         _addedEnd = block.End;
         if (kind == ObjTextKind.Binary)
@@ -220,7 +220,7 @@ public sealed class ObjReader
     }
 
     /// <summary>Adds what the kernel has read, and lets the grammar read the rest.</summary>
-    private void AddScanned(byte[] buffer, int length, ObjScanner scanner, ObjBlock elements)
+    private void AddScanned(byte[] buffer, int length, ObjScanner scanner, MeshBlock elements)
     {
         foreach (var statement in scanner.Statements)
         {

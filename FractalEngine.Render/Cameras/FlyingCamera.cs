@@ -59,8 +59,7 @@ public sealed class FlyingCamera
         _framing = new(bounds, scene);
         _initialPose = new(camera, projection, orthographicHeight, 0) { FramedAspect = framedAspect };
         Pose = _initialPose;
-        FocusDistance = _framing.DistanceToCentre(camera);
-        ResetFractalAddress();
+        Place(camera);
     }
 
     /// <summary>The state of the camera, which changes with every movement.</summary>
@@ -310,10 +309,8 @@ public sealed class FlyingCamera
     private void FrameScene(Camera camera, double aspect)
     {
         var (framed, height) = _framing.Frame(camera, Projection, aspect);
-        Pose = Pose with { Camera = framed, OrthographicHeight = height };
-        FocusDistance = _framing.DistanceToCentre(Pose.Camera);
-        ResetFractalAddress();
-        Pose = Pose with { FramedAspect = aspect };
+        Place(framed);
+        Pose = Pose with { OrthographicHeight = height, FramedAspect = aspect };
     }
 
     /// <summary>The present state, for <see cref="Restore"/>.</summary>
@@ -327,8 +324,7 @@ public sealed class FlyingCamera
     public void Reset()
     {
         Pose = _initialPose;
-        FocusDistance = _framing.DistanceToCentre(Pose.Camera);
-        ResetFractalAddress();
+        Place(Pose.Camera);
     }
 
     /// <summary>Returns to a state of this camera, or of one for another scene, as exactly as a world position can.</summary>
@@ -359,16 +355,11 @@ public sealed class FlyingCamera
         Pose = Pose with { FramedAspect = null };
     }
 
+    /// <summary>Takes a camera in world space, with its address in the fractal if the scene has one.</summary>
     private void Place(Camera camera)
     {
         Pose = Pose with { Camera = camera };
         FocusDistance = _framing.DistanceToCentre(camera);
-        ResetFractalAddress();
-    }
-
-    /// <summary>Computes the address of the present camera in the fractal, if the scene has one.</summary>
-    private void ResetFractalAddress()
-    {
         if (_fractal is not null)
         {
             Address = new(_fractal.Hierarchy, _fractal.ObjectToWorld, Pose.Camera.Position);

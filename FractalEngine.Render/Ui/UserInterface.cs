@@ -55,8 +55,7 @@ public sealed class UserInterface
         _targets = new(_input, _painter, _focus);
         _tooltip = new(_input, _painter, _targets, _areas);
         _widgets = new(_input, _painter, _layout, _targets, _tooltip);
-        _textField = new(
-            _input, _painter, _layout, _targets, _focus, readClipboard ?? (static () => ""), writeClipboard ?? (static _ => { }));
+        _textField = new(_input, _painter, _layout, _targets, _focus, readClipboard, writeClipboard);
         _slider = new(_input, _painter, _layout, _targets, _focus, _tooltip, _textField, text => ReadNumber(text));
         _marks = new(_input, _painter, _targets);
         _menus = new(_input, _painter, _layout, _targets, _focus, _areas);

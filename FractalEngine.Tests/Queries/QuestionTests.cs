@@ -1,4 +1,5 @@
 using System.Collections.Immutable;
+using System.Text.RegularExpressions;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
@@ -17,7 +18,7 @@ namespace FractalEngine.Tests.Queries;
 /// <summary>
 /// The table of docs/library.md: each question of a mesh, a fractal and a scene has the same answer alone, with a context and in a batch.
 /// </summary>
-public class QuestionTests
+public partial class QuestionTests
 {
     private static readonly Mesh Cube = Shapes.Cube();
     private static readonly Fractal Sponge = AssetFractals.Load("menger", 2);
@@ -39,6 +40,16 @@ public class QuestionTests
         [.. Seeded(vector => new BoundingBox(2 * vector, (2 * vector) + (0.3 * Vector.One)))];
 
     public static TheoryData<string> ShapeNames => ["mesh", "fractal", "scene"];
+
+    [Fact]
+    public void Page_NamesTypesByTheirNamespaces()
+    {
+        var lines = Using().Matches(File.ReadAllText(Repository.Full("docs/library.md"))).ToArray();
+        Assert.Equal(7, lines.Length);
+        Assert.All(lines, static line => Assert.All(
+            line.Groups[2].Value.Split(", "),
+            name => Assert.True(typeof(Mesh).Assembly.GetType($"{line.Groups[1].Value}.{name}")?.IsPublic, $"{line}: {name}")));
+    }
 
     [Theory]
     [MemberData(nameof(ShapeNames))]
@@ -204,4 +215,7 @@ public class QuestionTests
         var random = new Random(11);
         return Enumerable.Range(0, 60).Select(_ => create(random.Vector(0.5)));
     }
+
+    [GeneratedRegex(@"^using (FractalEngine[.\w]*); +// ([\w, ]+)$", RegexOptions.Multiline)]
+    private static partial Regex Using();
 }

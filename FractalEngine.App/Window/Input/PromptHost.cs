@@ -68,8 +68,7 @@ internal sealed class PromptHost(Func<string> readClipboard)
         _ignoresText = false;
         if (pressed.Key == Key.V && pressed.Modifiers.HasFlag(KeyModifiers.Control))
         {
-            // A path that was copied from a terminal often ends with a line break.
-            prompt.HandleText(string.Concat(readClipboard().Where(static character => !char.IsControl(character))));
+            prompt.HandleText(readClipboard());
             return true;
         }
 

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Widgets;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 
@@ -17,13 +18,13 @@ internal sealed class TextPrompt(
 {
     private const int MaxShownSuggestions = 8;
 
+    private UiTextEdit _edit = new(text);
     private ImmutableArray<string>? _suggestions;
     private int? _picked;
-    private int _cursor = text.Length;
     private string? _refusal;
 
     /// <summary>The text as it is edited so far.</summary>
-    public string Text { get; private set; } = text;
+    public string Text => _edit.Text;
 
     public override OverlayPanel Panel
     {
@@ -38,7 +39,7 @@ internal sealed class TextPrompt(
             var hiddenCount = Suggestions.Length - MaxShownSuggestions;
             return new(OverlayAnchor.Centre,
             [
-                new OverlayLine($"{Text[.._cursor]}|{Text[_cursor..]}"),
+                new OverlayLine($"{Text[.._edit.Caret]}|{Text[_edit.Caret..]}"),
                 .. shown.Skip(first).Take(MaxShownSuggestions),
                 .. hiddenCount > 0 ? [new OverlayLine($"  … {hiddenCount} more", null, OverlayTone.Dim)] : (OverlayLine[])[],
                 .. _refusal is { } refusal ? [new OverlayLine(refusal, null, OverlayTone.Warning)] : (OverlayLine[])[],
@@ -53,7 +54,7 @@ internal sealed class TextPrompt(
 
     private ImmutableArray<string> Suggestions => _suggestions ??= suggest?.Invoke(Text) ?? [];
 
-    public override void HandleText(string text) => Edit(Text.Insert(_cursor, text), _cursor + text.Length);
+    public override void HandleText(string text) => Edit(() => _edit.Insert(text));
 
     public override void HandleKey(KeyPressed pressed)
     {
@@ -74,27 +75,10 @@ internal sealed class TextPrompt(
             case Key.Down:
                 Pick(1);
                 break;
-            case Key.Backspace when _cursor > 0:
-                var start = Previous(_cursor);
-                Edit(Text.Remove(start, _cursor - start), start);
-                break;
-            case Key.Delete when _cursor < Text.Length:
-                Edit(Text.Remove(_cursor, Next(_cursor) - _cursor), _cursor);
-                break;
-            case Key.U when pressed.Modifiers.HasFlag(KeyModifiers.Control):
-                Edit("", 0);
-                break;
-            case Key.Left when _cursor > 0:
-                _cursor = Previous(_cursor);
-                break;
-            case Key.Right when _cursor < Text.Length:
-                _cursor = Next(_cursor);
-                break;
-            case Key.Home:
-                _cursor = 0;
-                break;
-            case Key.End:
-                _cursor = Text.Length;
+            default:
+                // Ctrl+U is the only chord: nothing is selected that others would copy.
+                var isChord = pressed.Key == Key.U && pressed.Modifiers.HasFlag(KeyModifiers.Control);
+                Edit(() => _edit.Handle(pressed.Key, selects: false, isChord));
                 break;
         }
     }
@@ -109,7 +93,7 @@ internal sealed class TextPrompt(
     {
         if (_picked is { } picked)
         {
-            Edit(Suggestions[picked], Suggestions[picked].Length);
+            Replace(Suggestions[picked]);
         }
 
         _refusal = accept(Text);
@@ -130,7 +114,7 @@ internal sealed class TextPrompt(
         var completed = _picked is { } picked ? Suggestions[picked] : Suggestions.Skip(1).Aggregate(Suggestions[0], CommonBeginning);
         if (completed.Length > Text.Length || _picked is not null)
         {
-            Edit(completed, completed.Length);
+            Replace(completed);
         }
     }
 
@@ -142,19 +126,31 @@ internal sealed class TextPrompt(
         }
     }
 
-    private void Edit(string text, int cursor)
+    private void Replace(string text)
     {
-        Text = text;
-        _cursor = cursor;
+        _edit = new(text);
+        Forget();
+    }
+
+    private void Edit(Action change)
+    {
+        var before = Text;
+        change();
+        // Nothing shows a selection here, so that there is none.
+        _edit.MoveTo(_edit.Caret, selects: false);
+        if (Text != before)
+        {
+            Forget();
+        }
+    }
+
+    /// <summary>Lets go of what belonged to another text.</summary>
+    private void Forget()
+    {
         _suggestions = null;
         _picked = null;
         _refusal = null;
     }
-
-    // A character beyond 16 bits is two of them, which are never separated.
-    private int Previous(int index) => index - (index > 1 && char.IsSurrogatePair(Text[index - 2], Text[index - 1]) ? 2 : 1);
-
-    private int Next(int index) => index + (index + 1 < Text.Length && char.IsSurrogatePair(Text[index], Text[index + 1]) ? 2 : 1);
 
     private static string CommonBeginning(string text1, string text2)
     {

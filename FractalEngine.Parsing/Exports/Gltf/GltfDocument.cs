@@ -2,6 +2,7 @@ using System.Globalization;
 using System.Text;
 using System.Text.Json.Nodes;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Maths;
 
 namespace FractalEngine.Parsing.Exports.Gltf;
 
@@ -105,6 +106,17 @@ internal sealed class GltfDocument
     });
 
     /// <summary>Writes a number as a float.</summary>
+    /// <summary>The sixteen numbers of a map, by columns.</summary>
+    /// <exception cref="Core.FractalEngineException">One of them is beyond the range of a float.</exception>
+    public static JsonArray MatrixOf(AffineMap map) =>
+    [
+        .. new[] { map.Linear.V1, map.Linear.V2, map.Linear.V3, map.Translation }.SelectMany(static (column, index) =>
+        {
+            var (x, y, z) = LittleEndianWriter.RequireSingle(column);
+            return new JsonNode[] { x, y, z, index == 3 ? 1 : 0 };
+        }),
+    ];
+
     public static void WriteFloat(LittleEndianWriter writer, double number) =>
         writer.WriteUInt32(BitConverter.SingleToUInt32Bits((float)number));
 

@@ -116,12 +116,5 @@ public sealed class GltfExport : SceneExport
         document.AddNode(node);
     }
 
-    private static JsonObject Place(Matrix axes, Vector position) => PlaceAt(axes, LittleEndianWriter.RequireSingle(position));
-
-    private static JsonObject PlaceAt(Matrix axes, Vector position) => new()
-    {
-        ["matrix"] = new JsonArray(
-            axes.V1.X, axes.V1.Y, axes.V1.Z, 0, axes.V2.X, axes.V2.Y, axes.V2.Z, 0, axes.V3.X, axes.V3.Y, axes.V3.Z, 0,
-            position.X, position.Y, position.Z, 1),
-    };
+    private static JsonObject Place(Matrix axes, Vector position) => new() { ["matrix"] = GltfDocument.MatrixOf(new(axes, position)) };
 }

@@ -95,18 +95,15 @@ internal sealed class GltfPart
         if (count == 1 && !_part.Placed.HasTints)
         {
             // Programs without the extension read it, too.
-            var (linear, at) = (maps.Single().Map.Linear, LittleEndianWriter.RequireSingle(maps.Single().Map.Translation));
-            var (x, y, z) = (
-                LittleEndianWriter.RequireSingle(linear.V1), LittleEndianWriter.RequireSingle(linear.V2),
-                LittleEndianWriter.RequireSingle(linear.V3));
+            var map = maps.Single().Map;
             var only = new JsonObject
             {
                 ["name"] = _part.ObjectName,
                 ["mesh"] = AddMesh([.. _groups.Select(group => AddPrimitive(group, once, 1, isTinted: false))]),
             };
-            if (maps.Single().Map != AffineMap.Identity)
+            if (map != AffineMap.Identity)
             {
-                only["matrix"] = new JsonArray(x.X, x.Y, x.Z, 0, y.X, y.Y, y.Z, 0, z.X, z.Y, z.Z, 0, at.X, at.Y, at.Z, 1);
+                only["matrix"] = GltfDocument.MatrixOf(map);
             }
 
             _document.AddNode(only);

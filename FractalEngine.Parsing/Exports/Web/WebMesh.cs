@@ -42,9 +42,8 @@ internal sealed class WebMesh
         var box = _mesh.UsedBounds.IsEmpty ? new(Vector.Zero, Vector.Zero) : _mesh.UsedBounds;
         var scale = (1.0 / Steps) * box.Size;
         var all = _corners.All;
-        json.WriteStartObject();
         json.WriteBoolean("isClosed", ClosedSurface.IsSolid(_mesh));
-        WriteNumbers(json, "box", [.. Components(box.Minimum), .. Components(scale)]);
+        json.WriteNumbers("box", [.. Components(box.Minimum), .. Components(scale)]);
         WriteDifferences(json, "positions", 3, all.SelectMany(corner => Components(
             Quantised(_mesh.Vertex(corner.Vertex) - box.Minimum, scale))));
         WriteDifferences(json, "normals", 3, all.SelectMany(static corner => Components(127 * corner.Normal)));
@@ -52,7 +51,7 @@ internal sealed class WebMesh
         {
             var u = (From: all.Min(static one => one.U), To: all.Max(static one => one.U));
             var v = (From: all.Min(static one => one.V), To: all.Max(static one => one.V));
-            WriteNumbers(json, "textureBox", [u.From, v.From, (u.To - u.From) / Steps, (v.To - v.From) / Steps]);
+            json.WriteNumbers("textureBox", [u.From, v.From, (u.To - u.From) / Steps, (v.To - v.From) / Steps]);
             WriteDifferences(json, "texture", 2, all.SelectMany(
                 one => new[] { Part(one.U - u.From, (u.To - u.From) / Steps), Part(one.V - v.From, (v.To - v.From) / Steps) }));
         }
@@ -63,29 +62,11 @@ internal sealed class WebMesh
                 corner => _mesh.Colours.AsSpan(3 * corner.Vertex, 3).ToArray().Select(static one => 255 * Math.Clamp(one, 0, 1))));
         }
 
-        json.WriteStartArray("batches");
-        foreach (var (material, indices) in Batches)
+        json.WriteObjects("batches", Batches, batch =>
         {
-            json.WriteStartObject();
-            json.WriteNumber("material", numberOf(material));
-            WriteDifferences(json, "indices", 1, indices.Select(static index => (double)index));
-            json.WriteEndObject();
-        }
-
-        json.WriteEndArray();
-        json.WriteEndObject();
-    }
-
-    /// <summary>Writes numbers as a property, in the shortest form that reads back as they are.</summary>
-    public static void WriteNumbers(Utf8JsonWriter json, string name, IEnumerable<double> numbers)
-    {
-        json.WriteStartArray(name);
-        foreach (var number in numbers)
-        {
-            json.WriteNumberValue(number == 0 ? 0 : number);
-        }
-
-        json.WriteEndArray();
+            json.WriteNumber("material", numberOf(batch.Material));
+            WriteDifferences(json, "indices", 1, batch.Indices.Select(static index => (double)index));
+        });
     }
 
     /// <summary>The components of a vector: x, y, z.</summary>
@@ -94,15 +75,12 @@ internal sealed class WebMesh
     private static void WriteDifferences(Utf8JsonWriter json, string name, int components, IEnumerable<double> numbers)
     {
         var last = new int[components];
-        json.WriteStartArray(name);
-        foreach (var (i, number) in numbers.Index())
+        json.WriteList(name, numbers.Index(), item =>
         {
-            var rounded = (int)Math.Round(number);
-            json.WriteNumberValue(rounded - last[i % components]);
-            last[i % components] = rounded;
-        }
-
-        json.WriteEndArray();
+            var rounded = (int)Math.Round(item.Item);
+            json.WriteNumberValue(rounded - last[item.Index % components]);
+            last[item.Index % components] = rounded;
+        });
     }
 
     private static Vector Quantised(Vector offset, Vector scale) =>

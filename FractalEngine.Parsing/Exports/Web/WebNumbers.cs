@@ -38,19 +38,16 @@ internal sealed class WebNumbers(
             .Select(static model => model.SourcePath).OfType<string>().Distinct().ToArray();
         Array.ForEach(paths, FindNumbers);
         var (count, done) = (0, 0);
-        json.WriteStartArray("numbers");
-        foreach (var (name, number) in _numbers)
+        json.WriteList("numbers", _numbers, entry =>
         {
-            if (Sample(paths, name, number) is { } samples)
+            if (Sample(paths, entry.Key, entry.Value) is { } samples)
             {
-                Write(json, name, number, samples);
+                json.WriteObject(null, () => Write(json, entry.Key, entry.Value, samples));
                 count++;
             }
 
             progress?.Report((double)++done / _numbers.Count);
-        }
-
-        json.WriteEndArray();
+        });
         return count;
     }
 
@@ -122,34 +119,21 @@ internal sealed class WebNumbers(
     private void Write(
         Utf8JsonWriter json, string name, (double Value, double From, double To) number, List<(int Model, WebLevels[] Samples)> samples)
     {
-        json.WriteStartObject();
         json.WriteString("name", name);
-        WebMesh.WriteNumbers(json, "range", [number.Value, number.From, number.To, MaxSamples]);
-        json.WriteStartArray("fractals");
-        foreach (var (model, sampled) in samples)
+        json.WriteNumbers("range", [number.Value, number.From, number.To, MaxSamples]);
+        json.WriteObjects("fractals", samples, sample =>
         {
-            json.WriteStartObject();
-            json.WriteNumber("fractal", model);
-            if (sampled.All(one => one.Shape == levels[model].Shape))
+            json.WriteNumber("fractal", sample.Model);
+            var present = levels[sample.Model];
+            if (sample.Samples.All(one => one.Shape == present.Shape))
             {
-                WriteValues(json, levels[model].Values, sampled);
+                WriteValues(json, present.Values, sample.Samples);
             }
             else
             {
-                json.WriteStartArray("others");
-                foreach (var one in sampled)
-                {
-                    WebScene.WriteLevels(json, one);
-                }
-
-                json.WriteEndArray();
+                json.WriteObjects("others", sample.Samples, one => WebScene.WriteLevels(json, one));
             }
-
-            json.WriteEndObject();
-        }
-
-        json.WriteEndArray();
-        json.WriteEndObject();
+        });
     }
 
     /// <summary>Writes the numbers that differ at any value: which ones, and for each value all of them.</summary>
@@ -159,17 +143,10 @@ internal sealed class WebNumbers(
         [
             .. Enumerable.Range(0, values.Count).Where(index => samples.Any(one => Rounded(one.Values[index]) != Rounded(values[index]))),
         ];
-        WebMesh.WriteNumbers(json, "changing", changing.Select(static index => (double)index));
-        json.WriteStartArray("values");
-        foreach (var sample in samples)
-        {
-            foreach (var index in changing)
-            {
-                json.WriteRawValue(Rounded(sample.Values[index]));
-            }
-        }
-
-        json.WriteEndArray();
+        json.WriteNumbers("changing", changing.Select(static index => (double)index));
+        json.WriteList(
+            "values", samples.SelectMany(sample => changing.Select(index => Rounded(sample.Values[index]))),
+            value => json.WriteRawValue(value));
     }
 
     // What is drawn between values is not exact, and needs no more digits.

@@ -15,16 +15,8 @@ internal static class WebPage
     ];
 
     /// <summary>Writes the shaders of the viewer, as a JSON object of their names.</summary>
-    public static void WriteShaders(Utf8JsonWriter json)
-    {
-        json.WriteStartObject("shaders");
-        foreach (var shader in Shaders)
-        {
-            json.WriteString(shader, Read(shader));
-        }
-
-        json.WriteEndObject();
-    }
+    public static void WriteShaders(Utf8JsonWriter json) =>
+        json.WriteObject("shaders", () => Array.ForEach(Shaders, shader => json.WriteString(shader, Read(shader))));
 
     /// <summary>Makes the text of a page.</summary>
     /// <param name="title">Its title, plain text.</param>

@@ -63,41 +63,28 @@ internal sealed class WebScene
         using var stream = new MemoryStream();
         using (var json = new Utf8JsonWriter(stream))
         {
-            json.WriteStartObject();
-            WebPage.WriteShaders(json);
-            WriteView(json);
-            WriteLights(json);
-            json.WriteStartArray("meshes");
-            foreach (var model in _models)
+            json.WriteObject(null, () =>
             {
-                new WebMesh(model).Write(json, NumberOf);
-            }
-
-            json.WriteEndArray();
-            json.WriteStartArray("fractals");
-            foreach (var levels in _levels)
-            {
-                WriteLevels(json, levels);
-            }
-
-            json.WriteEndArray();
-            WriteObjects(json);
-            WriteMaterials(json);
-            _sliders = new WebNumbers(_models, _levels, _settings.Load, _losses, _settings.Progress).Write(json);
-            json.WriteEndObject();
+                WebPage.WriteShaders(json);
+                WriteView(json);
+                WriteLights(json);
+                json.WriteObjects("meshes", _models, model => new WebMesh(model).Write(json, NumberOf));
+                json.WriteObjects("fractals", _levels, levels => WriteLevels(json, levels));
+                WriteObjects(json);
+                WriteMaterials(json);
+                _sliders = new WebNumbers(_models, _levels, _settings.Load, _losses, _settings.Progress).Write(json);
+            });
         }
 
         return stream.ToArray();
     }
 
-    /// <summary>Writes levels as a JSON object.</summary>
+    /// <summary>Writes levels as the properties of an object.</summary>
     public static void WriteLevels(Utf8JsonWriter json, WebLevels levels)
     {
-        json.WriteStartObject();
         json.WritePropertyName("shape");
         json.WriteRawValue(levels.Shape);
-        WebMesh.WriteNumbers(json, "values", levels.Values);
-        json.WriteEndObject();
+        json.WriteNumbers("values", levels.Values);
     }
 
     private static string Count(int number, string noun) =>
@@ -112,14 +99,15 @@ internal sealed class WebScene
         Lose(camera.Aperture > 0, "the page shows everything sharp, not by a lens");
         Lose(scene.Film is not null, "the page does not play the film");
         Lose(_objects.Any(static one => one.Declaration is PhysicsObject or { Motion: not null }), "in the page nothing moves by itself");
-        json.WriteStartObject("camera");
-        WriteVector(json, "position", camera.Position);
-        var (right, up, forward) = camera.LocalAxes;
-        WebMesh.WriteNumbers(json, "axes", [.. new[] { right, up, forward }.SelectMany(WebMesh.Components)]);
-        json.WriteNumber("slope", camera.HalfHeightAtUnitDepth);
-        json.WriteNumber("aspect", scene.Aspect ?? Aspect);
-        json.WriteEndObject();
-        WriteVector(json, "centre", bounds.Centre);
+        json.WriteObject("camera", () =>
+        {
+            json.WriteVector("position", camera.Position);
+            var (right, up, forward) = camera.LocalAxes;
+            json.WriteNumbers("axes", [.. new[] { right, up, forward }.SelectMany(WebMesh.Components)]);
+            json.WriteNumber("slope", camera.HalfHeightAtUnitDepth);
+            json.WriteNumber("aspect", scene.Aspect ?? Aspect);
+        });
+        json.WriteVector("centre", bounds.Centre);
         json.WriteNumber("size", bounds.FiniteDiagonalOr(1));
     }
 
@@ -131,88 +119,75 @@ internal sealed class WebScene
         Lose(scene.Fog is { IsLit: true }, "haze has no shafts of light in the page");
         Lose(scene.Background is not null && scene.Sky is not null, "the page shows the sky, not the background before it");
         var ambient = SceneAmbient.Of(scene);
-        json.WriteStartObject("ambient");
-        WriteVector(json, "above", ambient.Above);
-        WriteVector(json, "below", ambient.Below);
-        WriteVector(json, "curvature", ambient.Curvature);
-        json.WriteEndObject();
+        json.WriteObject("ambient", () =>
+        {
+            json.WriteVector("above", ambient.Above);
+            json.WriteVector("below", ambient.Below);
+            json.WriteVector("curvature", ambient.Curvature);
+        });
         if (scene.Sky is { } sky)
         {
             var radiance = sky.ToRadiance(scene.Handedness);
-            json.WriteStartObject("sky");
-            WriteVector(json, "zenith", radiance.At(Vector.J));
-            WriteVector(json, "horizon", sky.HorizonRadiance);
-            WriteVector(json, "ground", radiance.At(-Vector.J));
-            json.WriteEndObject();
+            json.WriteObject("sky", () =>
+            {
+                json.WriteVector("zenith", radiance.At(Vector.J));
+                json.WriteVector("horizon", sky.HorizonRadiance);
+                json.WriteVector("ground", radiance.At(-Vector.J));
+            });
         }
 
         var background = (scene.Background ?? DefaultBackground).ToLinearVector();
-        WriteVector(json, "background", background);
-        WebMesh.WriteNumbers(json, "display", [(int)scene.Tone, scene.Exposure, scene.Fog?.Density ?? 0]);
-        WriteVector(json, "fog", scene.Fog?.Colour?.ToLinearVector() ?? scene.Sky?.HorizonRadiance ?? background);
-        json.WriteStartArray("lights");
-        foreach (var light in SceneLights.Of(_scene).Take(MaxLights))
+        json.WriteVector("background", background);
+        json.WriteNumbers("display", [(int)scene.Tone, scene.Exposure, scene.Fog?.Density ?? 0]);
+        json.WriteVector("fog", scene.Fog?.Colour?.ToLinearVector() ?? scene.Sky?.HorizonRadiance ?? background);
+        json.WriteObjects("lights", SceneLights.Of(_scene).Take(MaxLights), light =>
         {
-            json.WriteStartObject();
-            WriteVector(json, "colour", light.Radiance);
-            WriteVector(json, "axis", light.Axis);
+            json.WriteVector("colour", light.Radiance);
+            json.WriteVector("axis", light.Axis);
             if (light.Position is { } position)
             {
                 Lose(light.HasSurface, "lamps with a surface shine from their middle in the page");
-                WriteVector(json, "position", position);
+                json.WriteVector("position", position);
                 json.WriteNumber("range", light.Range);
             }
 
-            WebMesh.WriteNumbers(json, "cone", light.HasCone ? [light.EdgeCosine, light.BrightCosine] : [-3, -2]);
-            json.WriteEndObject();
-        }
-
-        json.WriteEndArray();
+            json.WriteNumbers("cone", light.HasCone ? [light.EdgeCosine, light.BrightCosine] : [-3, -2]);
+        });
     }
 
-    private void WriteObjects(Utf8JsonWriter json)
+    private void WriteObjects(Utf8JsonWriter json) => json.WriteObjects("objects", _objects.Index(), item =>
     {
-        json.WriteStartArray("objects");
-        foreach (var (index, placed) in _objects.Index())
+        var (index, placed) = item;
+        json.WriteNumber("model", _models.IndexOf(placed.Model));
+        json.WriteNumbers("map", TransformRows.Of(placed.ObjectToWorld));
+        var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0
+            || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
+        json.WriteBoolean("isMirrored", turnsOver);
+        json.WriteVector("colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
+        var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;
+        json.WriteNumbers("whole", [.. WebMesh.Components(bounds.Centre), .. WebMesh.Components(bounds.Size)]);
+        if (placed.Gradient is { Kind: not GradientKind.None } gradient)
         {
-            json.WriteStartObject();
-            json.WriteNumber("model", _models.IndexOf(placed.Model));
-            WebMesh.WriteNumbers(json, "map", TransformRows.Of(placed.ObjectToWorld));
-            var turnsOver = placed.ObjectToWorld.Linear.Determinant() < 0
-                || placed.Model is FractalModel { Fractal.PreservesOrientation: false };
-            json.WriteBoolean("isMirrored", turnsOver);
-            WriteVector(json, "colour", ObjectPalette.ColourOf(placed, index).ToLinearVector());
-            var bounds = placed.Model is FractalModel { Fractal: var fractal } ? fractal.WholeBounds : placed.Model.Bounds;
-            WebMesh.WriteNumbers(json, "whole", [.. WebMesh.Components(bounds.Centre), .. WebMesh.Components(bounds.Size)]);
-            if (placed.Gradient is { Kind: not GradientKind.None } gradient)
-            {
-                Lose(gradient.HasSurface, "a gradient changes colours in the page, but neither roughness nor glow");
-                json.WriteNumber("gradient", (int)gradient.Kind);
-                WebMesh.WriteNumbers(json, "stops", gradient.Palette is { } palette
-                    ? palette.Stops.SelectMany(static stop => WebMesh.Components(stop.Colour.ToLinearVector()).Prepend(stop.Position))
-                    : [.. WebMesh.Components(ObjectPalette.ColourOf(placed, index).ToLinearVector()).Prepend(0),
-                        .. WebMesh.Components(gradient.EndColour.ToLinearVector()).Prepend(1)]);
-            }
-
-            json.WriteEndObject();
+            Lose(gradient.HasSurface, "a gradient changes colours in the page, but neither roughness nor glow");
+            json.WriteNumber("gradient", (int)gradient.Kind);
+            json.WriteNumbers("stops", gradient.Palette is { } palette
+                ? palette.Stops.SelectMany(static stop => WebMesh.Components(stop.Colour.ToLinearVector()).Prepend(stop.Position))
+                : [.. WebMesh.Components(ObjectPalette.ColourOf(placed, index).ToLinearVector()).Prepend(0),
+                    .. WebMesh.Components(gradient.EndColour.ToLinearVector()).Prepend(1)]);
         }
-
-        json.WriteEndArray();
-    }
+    });
 
     private void WriteMaterials(Utf8JsonWriter json)
     {
-        json.WriteStartArray("materials");
-        foreach (var material in _materials)
+        json.WriteObjects("materials", _materials, material =>
         {
             Lose(material.IsGlossy, "surfaces of materials are matt in the page: nothing is mirrored");
             Lose(material.DetailTexture is not null || material.OpacityTexture is not null,
                 "the page shows textures of colours alone, not those of normals, heights or opacity");
-            json.WriteStartObject();
-            WriteVector(json, "colour", material.Diffuse.ToLinearVector());
+            json.WriteVector("colour", material.Diffuse.ToLinearVector());
             json.WriteNumber("opacity", material.Opacity);
-            WriteVector(json, "ambient", new(material.Ambient.Red, material.Ambient.Green, material.Ambient.Blue));
-            WriteVector(json, "emission", new(material.Emission.Red, material.Emission.Green, material.Emission.Blue));
+            json.WriteVector("ambient", new(material.Ambient.Red, material.Ambient.Green, material.Ambient.Blue));
+            json.WriteVector("emission", new(material.Emission.Red, material.Emission.Green, material.Emission.Blue));
             if (material.Texture is { } texture)
             {
                 var index = _textures.FindIndex(known => known.Path == texture.Path);
@@ -223,21 +198,12 @@ internal sealed class WebScene
                 }
 
                 json.WriteNumber("texture", index);
-                WebMesh.WriteNumbers(json, "place", [texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V]);
+                json.WriteNumbers("place", [texture.Scale.U, texture.Scale.V, texture.Offset.U, texture.Offset.V]);
                 json.WriteBoolean("clamp", texture.IsClamped);
             }
-
-            json.WriteEndObject();
-        }
-
-        json.WriteEndArray();
-        json.WriteStartArray("textures");
-        foreach (var texture in _textures)
-        {
-            json.WriteBase64StringValue(texture.Contents.IsEmpty ? File.ReadAllBytes(texture.Path) : texture.Contents.AsSpan());
-        }
-
-        json.WriteEndArray();
+        });
+        json.WriteList("textures", _textures, texture => json.WriteBase64StringValue(
+            texture.Contents.IsEmpty ? File.ReadAllBytes(texture.Path) : texture.Contents.AsSpan()));
     }
 
     private int NumberOf(Material? material)
@@ -262,6 +228,4 @@ internal sealed class WebScene
             _losses.Add(sentence);
         }
     }
-
-    private static void WriteVector(Utf8JsonWriter json, string name, Vector v) => WebMesh.WriteNumbers(json, name, WebMesh.Components(v));
 }

@@ -86,7 +86,7 @@ public static class ObjMeshWriter
     }
 
     private static bool IsUsed(int elementCount, IReadOnlyList<int> indices) =>
-        indices.Count == 0 ? elementCount == 0 : indices.Any(index => index != ObjCorner.None);
+        indices.Count == 0 ? elementCount == 0 : indices.Any(index => index != PolygonCorner.None);
 
     private static void RequireNames(Mesh mesh, string objectName)
     {

@@ -101,17 +101,17 @@ internal sealed class ObjTextWriter(Stream stream)
     /// <summary>Writes one corner of a face: <c>v</c>, <c>v/vt</c>, <c>v//vn</c> or <c>v/vt/vn</c>.</summary>
     private void WriteCorner(Mesh mesh, int corner, (long Positions, long TextureCoordinates, long Normals) before)
     {
-        var textureIndex = mesh.TextureIndices.IsEmpty ? ObjCorner.None : mesh.TextureIndices[corner];
-        var normalIndex = mesh.NormalIndices.IsEmpty ? ObjCorner.None : mesh.NormalIndices[corner];
+        var textureIndex = mesh.TextureIndices.IsEmpty ? PolygonCorner.None : mesh.TextureIndices[corner];
+        var normalIndex = mesh.NormalIndices.IsEmpty ? PolygonCorner.None : mesh.NormalIndices[corner];
         WriteInteger(' ', before.Positions + mesh.VertexIndices[corner] + 1);
-        if (textureIndex != ObjCorner.None)
+        if (textureIndex != PolygonCorner.None)
         {
             WriteInteger('/', before.TextureCoordinates + textureIndex + 1);
         }
 
-        if (normalIndex != ObjCorner.None)
+        if (normalIndex != PolygonCorner.None)
         {
-            WriteText(textureIndex != ObjCorner.None ? "" : "/");
+            WriteText(textureIndex != PolygonCorner.None ? "" : "/");
             WriteInteger('/', before.Normals + normalIndex + 1);
         }
     }

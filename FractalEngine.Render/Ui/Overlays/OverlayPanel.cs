@@ -20,10 +20,6 @@ public sealed record OverlayPanel(OverlayAnchor Anchor, ImmutableArray<OverlayLi
     public static OverlayPanel OfText(OverlayAnchor anchor, params ReadOnlySpan<string> lines) =>
         new(anchor, [.. lines.ToArray().Select(line => new OverlayLine(line))]);
 
-    /// <summary>Creates a panel of rows with two columns, such as keys and their effects.</summary>
-    public static OverlayPanel OfTable(OverlayAnchor anchor, string title, IEnumerable<(string First, string Second)> rows) =>
-        new(anchor, [.. rows.Select(row => new OverlayLine(row.First, row.Second))]) { Title = title };
-
     /// <summary>Creates a panel with a label and a progress bar in the centre.</summary>
     /// <param name="label">Description of the work in progress.</param>
     /// <param name="fraction">Completed fraction, from 0 to 1.</param>

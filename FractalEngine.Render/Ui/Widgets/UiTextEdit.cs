@@ -1,21 +1,26 @@
-using FractalEngine.Render.Ui.Input;
 using FractalEngine.Render.Windowing.Keyboard;
 
 namespace FractalEngine.Render.Ui.Widgets;
 
 /// <summary>A line of text with caret and selection, as the keyboard edits it.</summary>
-internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writeClipboard)
+/// <param name="text">The text to begin with, its caret behind it.</param>
+/// <param name="readClipboard">Returns the text of the clipboard, which Ctrl+V enters; null for none.</param>
+/// <param name="writeClipboard">Takes what Ctrl+C and Ctrl+X copy; null for none.</param>
+public sealed class UiTextEdit(string text = "", Func<string>? readClipboard = null, Action<string>? writeClipboard = null)
 {
-    public string Text { get; private set; } = "";
+    /// <summary>The text as it is edited so far.</summary>
+    public string Text { get; private set; } = text;
 
     /// <summary>Index of the character behind the caret.</summary>
-    public int Caret { get; private set; }
+    public int Caret { get; private set; } = text.Length;
 
     /// <summary>The other end of the selection; the caret itself where nothing is selected.</summary>
-    public int Anchor { get; private set; }
+    public int Anchor { get; private set; } = text.Length;
 
+    /// <summary>Index of the first selected character; the caret where nothing is selected.</summary>
     public int SelectionStart => Math.Min(Caret, Anchor);
 
+    /// <summary>Index behind the last selected character; the caret where nothing is selected.</summary>
     public int SelectionEnd => Math.Max(Caret, Anchor);
 
     /// <summary>Begins with a text, all of it selected.</summary>
@@ -33,7 +38,7 @@ internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writ
         Anchor = selects ? Anchor : Caret;
     }
 
-    /// <summary>Replaces the selection. Control characters are left out.</summary>
+    /// <summary>Replaces the selection. Control characters are left out: copied paths often end with a line break.</summary>
     public void Insert(string text)
     {
         var start = SelectionStart;
@@ -43,15 +48,18 @@ internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writ
     }
 
     /// <summary>Processes a key that was pressed.</summary>
+    /// <param name="key">The key.</param>
+    /// <param name="selects">Whether a move of the caret selects what it passes, as Shift does.</param>
+    /// <param name="isControlHeld">Whether Ctrl is held.</param>
     /// <returns>False for keys that a text field does not know.</returns>
-    public bool Handle(UiInput input)
+    public bool Handle(Key key, bool selects, bool isControlHeld)
     {
-        var leavesSelection = Caret != Anchor && !input.IsShiftHeld;
-        int? target = input.Key switch
+        var leavesSelection = Caret != Anchor && !selects;
+        int? target = key switch
         {
-            Key.Left when input.IsControlHeld => SkipWord(-1),
-            Key.Right when input.IsControlHeld => SkipWord(1),
-            _ when input.IsControlHeld => null,
+            Key.Left when isControlHeld => SkipWord(-1),
+            Key.Right when isControlHeld => SkipWord(1),
+            _ when isControlHeld => null,
             Key.Left => leavesSelection ? SelectionStart : Previous(Caret),
             Key.Right => leavesSelection ? SelectionEnd : Next(Caret),
             Key.Home => 0,
@@ -60,29 +68,29 @@ internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writ
         };
         if (target is { } index)
         {
-            MoveTo(index, input.IsShiftHeld);
+            MoveTo(index, selects);
             return true;
         }
 
-        if (input.IsControlHeld)
+        if (isControlHeld)
         {
-            return HandleControl(input);
+            return HandleControl(key);
         }
 
-        if (input.Key is Key.Backspace or Key.Delete)
+        if (key is Key.Backspace or Key.Delete)
         {
-            Delete(input.Key == Key.Backspace ? Previous(Caret) : Next(Caret));
+            Delete(key == Key.Backspace ? Previous(Caret) : Next(Caret));
             return true;
         }
 
         // Letters arrive as text, which follows.
-        return input.Key is not (Key.Escape or Key.Tab or Key.Enter or Key.KeypadEnter or Key.Up or Key.Down or Key.PageUp
+        return key is not (Key.Escape or Key.Tab or Key.Enter or Key.KeypadEnter or Key.Up or Key.Down or Key.PageUp
             or Key.PageDown or (>= Key.F1 and <= Key.F12));
     }
 
-    private bool HandleControl(UiInput input)
+    private bool HandleControl(Key key)
     {
-        switch (input.Key)
+        switch (key)
         {
             case Key.A:
                 Begin(Text);
@@ -90,17 +98,17 @@ internal sealed class UiTextEdit(Func<string> readClipboard, Action<string> writ
             case Key.C or Key.X:
                 if (Caret != Anchor)
                 {
-                    writeClipboard(Text[SelectionStart..SelectionEnd]);
+                    writeClipboard?.Invoke(Text[SelectionStart..SelectionEnd]);
                 }
 
-                if (input.Key == Key.X)
+                if (key == Key.X)
                 {
                     Insert("");
                 }
 
                 return true;
             case Key.V:
-                Insert(readClipboard());
+                Insert(readClipboard?.Invoke() ?? "");
                 return true;
             case Key.U:
                 Begin("");

@@ -8,9 +8,9 @@ namespace FractalEngine.Render.Ui.Widgets;
 /// <summary>Fields for a line of text, of which one at a time is edited by keys, mouse and clipboard.</summary>
 internal sealed class UiTextField(
     UiInput input, UiPainter painter, UiLayout layout, UiTargets targets, UiFocus focus,
-    Func<string> readClipboard, Action<string> writeClipboard)
+    Func<string>? readClipboard, Action<string>? writeClipboard)
 {
-    private readonly UiTextEdit _edit = new(readClipboard, writeClipboard);
+    private readonly UiTextEdit _edit = new("", readClipboard, writeClipboard);
     private int _firstColumn;
 
     public bool Add(string label, ref string text, out bool isCommitted, bool takesKeyboard)
@@ -79,7 +79,7 @@ internal sealed class UiTextField(
             focus.Clear();
             result = _edit.Text;
         }
-        else if (input.Key != Key.Unknown && _edit.Handle(input))
+        else if (input.Key != Key.Unknown && _edit.Handle(input.Key, input.IsShiftHeld, input.IsControlHeld))
         {
             input.TakeKey(input.Key);
         }

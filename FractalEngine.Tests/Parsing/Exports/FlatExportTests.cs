@@ -80,7 +80,7 @@ public class FlatExportTests
         using var stream = new MemoryStream();
         Assert.Equal(
             "menger.fdo has more faces than the limit of 95999: its base has 12, and the fractal has 8,000 instances, more than the limit "
-            + "of 7,999",
+            + "of 7,999; --depth or --instances writes fewer",
             Assert.Throws<FractalLimitException>(() => Format(ending).Write(scene, new() { MaxFaces = 95_999 }, stream)).Message);
         Assert.Equal(0, stream.Length);
         Assert.Equal("96000 faces", Format(ending).Write(scene, new() { MaxFaces = 96_000 }, stream).Contents);

@@ -26,7 +26,7 @@ public sealed class GlObjectTests
         using (var frame = new FrameRenderer(context))
         {
             frame.Draw(renderer, RenderScenes.FrontView, 40, 30, new() { Grid = true, Wireframe = true });
-            frame.Capture(OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
+            frame.Capture(overlay: OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
             frame.Draw(renderer, RenderScenes.FrontView, 60, 30, new() { Samples = 0 });
             frame.Capture();
             Assert.NotEmpty(context.Resources.LiveObjects);

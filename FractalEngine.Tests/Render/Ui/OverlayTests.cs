@@ -120,7 +120,7 @@ public sealed class OverlayTests
     [InlineData(300, 400)]
     public void Question_WiderThanTheFrame_IsWrapped(int width, int height)
     {
-        var question = OverlayPanel.OfTable(
+        var question = TableOf(
             OverlayAnchor.Centre, "A title that is wider than the frame", [("T", "a tree: a trunk with branches"), ("Esc", "cancel")]);
         var layout = OverlayLayout.Create(Atlas, [question], width, height);
         Assert.All(layout.Quads, quad => Assert.InRange(quad.X, 0, width - quad.Width));
@@ -139,7 +139,7 @@ public sealed class OverlayTests
     [Fact]
     public void Table_TwoColumns_AlignsTheSecond()
     {
-        var panels = new[] { OverlayPanel.OfTable(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };
+        var panels = new[] { TableOf(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };
         var layout = OverlayLayout.Create(Atlas, panels, 1280, 720);
         var bars = layout.Quads.Where(quad => (int)quad.Glyph == Atlas.GlyphOf('|')).Select(quad => quad.X).Distinct().Order().ToArray();
         Assert.Equal(2, bars.Length);
@@ -157,8 +157,11 @@ public sealed class OverlayTests
         using var context = new SharedContext();
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, width, height, new() { Background = Colour.Black });
-        return frame.Capture(panels.ToArray());
+        return frame.Capture(overlay: panels.ToArray());
     }
+
+    private static OverlayPanel TableOf(OverlayAnchor anchor, string title, params IEnumerable<(string First, string Second)> rows) =>
+        new(anchor, [.. rows.Select(static row => new OverlayLine(row.First, row.Second))]) { Title = title };
 
     /// <summary>Counts the pixels of a rectangle that are brighter than a panel.</summary>
     private static int CountLitPixels(PixelImage image, int x, int y, int width, int height) =>

@@ -38,7 +38,7 @@ public class ImageLayerTests
         using var frame = new FrameRenderer(context);
         frame.Draw(null, RenderScenes.FrontView, Width, Height, new() { Background = new(0.2, 0.4, 0.6) });
         var before = frame.Capture();
-        frame.Capture(new ImageLayer(Image(static (_, _) => (255, 0, 0)), 1), OverlayPanel.OfText(OverlayAnchor.TopLeft, "a"));
+        frame.Capture(new ImageLayer(Image(static (_, _) => (255, 0, 0)), 1), overlay: OverlayPanel.OfText(OverlayAnchor.TopLeft, "a"));
         Assert.Equal((0, 255, 0, 255), frame.Capture(new ImageLayer(Image(static (_, _) => (0, 255, 0)), 1))[8, 8]);
         Assert.Equal(before.Pixels, frame.Capture().Pixels);
         Assert.Throws<ArgumentException>(() => frame.Capture(new ImageLayer(new(1, 1, new byte[4]), 1)));

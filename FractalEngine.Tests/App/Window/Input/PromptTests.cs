@@ -25,6 +25,13 @@ public sealed class PromptTests : IDisposable
         prompt.HandleText("x");
         Press(prompt, Key.End, Key.Backspace, Key.Home, Key.Delete);
         Assert.Equal("aü", prompt.Text);
+        // Nothing is selected, which would be replaced unseen.
+        prompt.HandleKey(new(Key.A, KeyModifiers.Control, false));
+        prompt.HandleKey(new(Key.Right, KeyModifiers.Shift, false));
+        prompt.HandleText("\tb");
+        Assert.Equal("abü", prompt.Text);
+        prompt.HandleKey(new(Key.Backspace, KeyModifiers.Control, false));
+        Assert.Equal("aü", prompt.Text);
         prompt.HandleKey(new(Key.U, KeyModifiers.Control, false));
         Assert.Equal("", prompt.Text);
     }

@@ -67,7 +67,7 @@ public sealed class GlStateTests
             for (var round = 0; round < 2; round++)
             {
                 frame.Draw(renderer, RenderScenes.FrontView, 200, 150, settings with { Grid = true, Axes = true, Wireframe = round == 0 });
-                frame.Capture(OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
+                frame.Capture(overlay: OverlayPanel.OfText(OverlayAnchor.TopLeft, "text"));
                 frame.Draw(renderer, RenderScenes.FrontView, 200, 150, settings);
                 context.Resources.ThrowOnError("drawing");
                 Assert.Equal(expected[i % 3].Pixels, frame.Capture().Pixels);

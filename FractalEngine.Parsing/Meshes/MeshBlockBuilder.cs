@@ -5,7 +5,7 @@ namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>Collects the elements of consecutive lines of a mesh file, until they become a block.</summary>
 /// <remarks>What scans lines writes into the arrays itself, with room for the largest number of elements.</remarks>
-internal class ObjBlockBuilder
+internal class MeshBlockBuilder
 {
     private protected double[] _positions = [];
     private protected double[] _colours = [];
@@ -34,7 +34,7 @@ internal class ObjBlockBuilder
     private int _openCornerCount;
 
     /// <summary>Numbers of elements here.</summary>
-    public ObjCounts Counts => new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount);
+    public ElementCounts Counts => new(_positionCount, _textureCoordinateCount, _normalCount, _faceCount);
 
     /// <summary>Makes room for a number of vertices.</summary>
     public void ReservePositions(int count) => Reserve(ref _positions, 3 * count);
@@ -63,7 +63,7 @@ internal class ObjBlockBuilder
     }
 
     /// <summary>Adds a polygon of at least three corners.</summary>
-    public void AddPolygon(ReadOnlySpan<ObjCorner> corners)
+    public void AddPolygon(ReadOnlySpan<PolygonCorner> corners)
     {
         Reserve(ref _positionIndices, _cornerCount + corners.Length);
         Reserve(ref _polygonSizes, _polygonCount + 1);
@@ -101,7 +101,7 @@ internal class ObjBlockBuilder
     }
 
     /// <summary>Creates a block of all elements.</summary>
-    public ObjBlock ToBlock()
+    public MeshBlock ToBlock()
     {
         FillIndices(ref _textureIndices, ref _textureIndexCount);
         FillIndices(ref _normalIndices, ref _normalIndexCount);
@@ -178,7 +178,7 @@ internal class ObjBlockBuilder
     {
         if (count != corner)
         {
-            indices.AsSpan(count, corner - count).Fill(ObjCorner.None);
+            indices.AsSpan(count, corner - count).Fill(PolygonCorner.None);
         }
 
         count = corner + 1;
@@ -196,7 +196,7 @@ internal class ObjBlockBuilder
 
     private void FillColours()
     {
-        _colours.AsSpan(3 * _colourCount, 3 * (_positionCount - _colourCount)).Fill(ObjColour.Default);
+        _colours.AsSpan(3 * _colourCount, 3 * (_positionCount - _colourCount)).Fill(VertexColour.Default);
         _colourCount = _positionCount;
     }
 
@@ -208,7 +208,7 @@ internal class ObjBlockBuilder
 
     private static void AddIndex(ref int[] indices, ref int count, int corner, int index)
     {
-        if (index != ObjCorner.None)
+        if (index != PolygonCorner.None)
         {
             Reserve(ref indices, corner + 1);
             FillIndices(indices, ref count, corner);

@@ -1,20 +1,20 @@
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Elements of consecutive lines of an OBJ file, in arrays of exact size. Polygons are not triangulated yet.</summary>
+/// <summary>Elements of consecutive lines of a mesh file, in arrays of exact size. Polygons are not triangulated yet.</summary>
 /// <remarks>
-/// An index counts from 0 in the file, or is <see cref="ObjCorner.None"/>, or counts from <see cref="BlockStart"/> in the block: where
+/// An index counts from 0 in the file, or is <see cref="PolygonCorner.None"/>, or counts from <see cref="BlockStart"/> in the block: where
 /// a line counts backwards, the elements before the block are not counted yet when the line is read.
 /// </remarks>
-internal sealed class ObjBlock
+internal sealed class MeshBlock
 {
     /// <summary>Stands for the first element of the block in indices relative to it. More than any file has elements below −1.</summary>
     public const int BlockStart = -(1 << 30);
 
     /// <summary>Numbers of elements in all blocks before this one.</summary>
-    public ObjCounts Before { get; set; }
+    public ElementCounts Before { get; set; }
 
     /// <summary>Numbers of elements in this block.</summary>
-    public required ObjCounts Counts { get; init; }
+    public required ElementCounts Counts { get; init; }
 
     /// <summary>Coordinates of the vertices in the block, [vertices × 3].</summary>
     public required double[] Positions { get; init; }

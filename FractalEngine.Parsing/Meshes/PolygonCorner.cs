@@ -4,7 +4,7 @@ namespace FractalEngine.Parsing.Meshes;
 /// <param name="PositionIndex">Index of the position, from 0.</param>
 /// <param name="TextureCoordinateIndex">Index of the texture coordinate, from 0, or <see cref="None"/>.</param>
 /// <param name="NormalIndex">Index of the normal, from 0, or <see cref="None"/>.</param>
-internal readonly record struct ObjCorner(int PositionIndex, int TextureCoordinateIndex, int NormalIndex)
+internal readonly record struct PolygonCorner(int PositionIndex, int TextureCoordinateIndex, int NormalIndex)
 {
     /// <summary>Index of an element that the corner lacks.</summary>
     public const int None = -1;

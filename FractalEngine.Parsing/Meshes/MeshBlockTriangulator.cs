@@ -11,7 +11,7 @@ namespace FractalEngine.Parsing.Meshes;
 /// Has the positions of all blocks. Receives indices [faces × 3] of positions, and of texture coordinates and normals unless those arrays
 /// are empty.
 /// </param>
-internal sealed class ObjBlockTriangulator(ObjBlock block, ObjBlock all)
+internal sealed class MeshBlockTriangulator(MeshBlock block, MeshBlock all)
 {
     private readonly double[] _positions = all.Positions;
     private readonly int[] _positionIndices = all.PositionIndices;
@@ -47,7 +47,7 @@ internal sealed class ObjBlockTriangulator(ObjBlock block, ObjBlock all)
     {
         for (var i = 0; i < indices.Length; i++)
         {
-            indices[i] += indices[i] < ObjCorner.None ? before - ObjBlock.BlockStart : 0;
+            indices[i] += indices[i] < PolygonCorner.None ? before - MeshBlock.BlockStart : 0;
         }
     }
 
@@ -60,7 +60,7 @@ internal sealed class ObjBlockTriangulator(ObjBlock block, ObjBlock all)
         }
         else if (to.Length > 0)
         {
-            Array.Fill(to, ObjCorner.None, 3 * block.Before.Faces, 3 * block.Counts.Faces);
+            Array.Fill(to, PolygonCorner.None, 3 * block.Before.Faces, 3 * block.Counts.Faces);
         }
     }
 
@@ -111,9 +111,9 @@ internal sealed class ObjBlockTriangulator(ObjBlock block, ObjBlock all)
     {
         var triangle = to.AsSpan(target, 3);
         var hasIndices = from.Length > 0;
-        triangle[2] = hasIndices ? from[corner3] : ObjCorner.None;
-        triangle[1] = hasIndices ? from[corner2] : ObjCorner.None;
-        triangle[0] = hasIndices ? from[corner1] : ObjCorner.None;
+        triangle[2] = hasIndices ? from[corner3] : PolygonCorner.None;
+        triangle[1] = hasIndices ? from[corner2] : PolygonCorner.None;
+        triangle[0] = hasIndices ? from[corner1] : PolygonCorner.None;
     }
 
     [MethodImpl(MethodImplOptions.AggressiveInlining)]

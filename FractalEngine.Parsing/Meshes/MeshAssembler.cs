@@ -4,14 +4,14 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Merges the blocks of an OBJ file into one mesh: each block knows where its elements go.</summary>
-internal static class ObjMeshAssembler
+/// <summary>Merges the blocks of a mesh file into one mesh: each block knows where its elements go.</summary>
+internal static class MeshAssembler
 {
     /// <summary>Creates the mesh of all blocks, without names.</summary>
     /// <param name="blocks">Blocks in the order of the file.</param>
     /// <param name="counts">Numbers of elements in all of them.</param>
     /// <param name="threadCount">Number of threads that work on it, at least one.</param>
-    public static Mesh Assemble(List<ObjBlock> blocks, ObjCounts counts, int threadCount)
+    public static Mesh Assemble(List<MeshBlock> blocks, ElementCounts counts, int threadCount)
     {
         if (blocks is [{ IsResolved: true } single])
         {
@@ -21,12 +21,12 @@ internal static class ObjMeshAssembler
         var all = Allocate(blocks, counts);
         ForEachBlock(blocks, threadCount, block => CopyElements(block, all));
         // Cutting a polygon needs the positions of all blocks.
-        ForEachBlock(blocks, threadCount, block => new ObjBlockTriangulator(block, all).Write());
+        ForEachBlock(blocks, threadCount, block => new MeshBlockTriangulator(block, all).Write());
         return CreateMesh(all);
     }
 
     /// <summary>Makes a block of triangles with room for all elements.</summary>
-    private static ObjBlock Allocate(List<ObjBlock> blocks, ObjCounts counts)
+    private static MeshBlock Allocate(List<MeshBlock> blocks, ElementCounts counts)
     {
         // Elements that no face refers to are no part of a mesh, except for its vertices.
         var hasColours = blocks.Exists(static block => block.Colours.Length > 0);
@@ -46,7 +46,7 @@ internal static class ObjMeshAssembler
         };
     }
 
-    private static Mesh CreateMesh(ObjBlock block)
+    private static Mesh CreateMesh(MeshBlock block)
     {
         var mesh = new Mesh(Immutable(block.Positions), Immutable(block.PositionIndices));
         if (block.TextureIndices.Length > 0)
@@ -60,7 +60,7 @@ internal static class ObjMeshAssembler
 
     private static ImmutableArray<T> Immutable<T>(T[] array) => ImmutableCollectionsMarshal.AsImmutableArray(array);
 
-    private static void ForEachBlock(List<ObjBlock> blocks, int threadCount, Action<ObjBlock> write)
+    private static void ForEachBlock(List<MeshBlock> blocks, int threadCount, Action<MeshBlock> write)
     {
         var next = -1;
         Workers.Run(Math.Min(threadCount, blocks.Count), _ =>
@@ -72,13 +72,13 @@ internal static class ObjMeshAssembler
         });
     }
 
-    private static void CopyElements(ObjBlock block, ObjBlock all)
+    private static void CopyElements(MeshBlock block, MeshBlock all)
     {
         block.Positions.CopyTo(all.Positions, 3 * block.Before.Positions);
         if (all.Colours.Length > 0)
         {
             var colours = all.Colours.AsSpan(3 * block.Before.Positions, block.Positions.Length);
-            colours.Fill(ObjColour.Default);
+            colours.Fill(VertexColour.Default);
             block.Colours.CopyTo(colours);
         }
 

@@ -1,7 +1,7 @@
 namespace FractalEngine.Parsing.Meshes;
 
 /// <summary>What the numbers behind the position of a vertex mean, for the grammar and its kernel alike.</summary>
-internal static class ObjColour
+internal static class VertexColour
 {
     /// <summary>Numbers behind a position that are kept: one more than have a meaning.</summary>
     public const int MaxNumbers = 5;

@@ -3,8 +3,8 @@ using FractalEngine.Core.Geometry;
 
 namespace FractalEngine.Parsing.Meshes;
 
-/// <summary>Names and materials that an OBJ file gives to runs of faces.</summary>
-internal sealed class ObjGroups
+/// <summary>Names and materials that a mesh file gives to runs of faces.</summary>
+internal sealed class MeshGroupList
 {
     private readonly List<MeshGroup> _groups = [];
     private (string Object, string Group, string Material, int Smoothing) _state = ("", "", "", 0);
