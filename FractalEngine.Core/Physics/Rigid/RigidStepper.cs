@@ -434,7 +434,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         var substep = fraction * _seconds;
         _guard.Begin(states, CollectionsMarshal.AsSpan(_rows));
         var made = RigidSolver.Solve(
-            states, CollectionsMarshal.AsSpan(_rows), substep, canTurn ? double.PositiveInfinity : MaxAngle);
+            states, CollectionsMarshal.AsSpan(_rows), substep, _isMoving && !canTurn ? MaxAngle : double.PositiveInfinity);
         PlanMotions(time, made < substep ? made / _seconds : fraction);
         _sweep.StopBodies(_pairs, _surfaces);
         var cut = canCut && _isMoving ? FirstPush(made) : 1;
