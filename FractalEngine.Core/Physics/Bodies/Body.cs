@@ -150,7 +150,6 @@ public sealed class Body
         FaceTests = 0;
         BoundTests = 0;
         SleepTimer = 0;
-        HeldCount = 0;
         IsOverlapResolved = false;
         MayTouchBodies = true;
         HasHeapMargin = false;
@@ -503,9 +502,6 @@ public sealed class Body
 
     /// <summary>True once these faces have been searched for in this step.</summary>
     internal bool AreNearSurfacesKnown { get; set; }
-
-    /// <summary>Number of substeps for which the body has been stopped where it was.</summary>
-    internal int HeldCount { get; set; }
 
     /// <summary>The bodies with the same number fell asleep together, and wake together.</summary>
     internal int RigidIsland { get; set; }

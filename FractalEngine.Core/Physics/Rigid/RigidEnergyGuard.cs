@@ -14,7 +14,7 @@ internal sealed class RigidEnergyGuard
     private readonly DisjointSets _groups = new();
     private Group[] _sums = [];
 
-    /// <summary>Notes the energy that there is before contacts act.</summary>
+    /// <summary>Notes the energy that there is before a substep.</summary>
     /// <param name="states">The bodies, and what no force moves.</param>
     /// <param name="rows">The contacts.</param>
     public void Begin(ReadOnlySpan<RigidState> states, ReadOnlySpan<RigidRow> rows)
@@ -38,18 +38,20 @@ internal sealed class RigidEnergyGuard
         {
             ref var sum = ref _sums[_groups.RootOf(row.First)];
             ref readonly var other = ref states[row.Second];
-            sum.HasSurface |= !other.IsDynamic;
+            sum.HasSurface |= !(states[row.First].IsDynamic && other.IsDynamic);
             // Surfaces that move do work, which is not known.
             sum.IsPushed |= row.Belt != Vector.Zero || (!other.IsDynamic && (other.Velocity != Vector.Zero || other.Spin != Vector.Zero));
         }
 
         for (var i = 0; i < states.Length; i++)
         {
-            _sums[_groups.RootOf(i)].EnergyBefore += states[i].IsDynamic ? states[i].KineticEnergy : 0;
+            ref var sum = ref _sums[_groups.RootOf(i)];
+            sum.EnergyBefore += states[i].IsDynamic ? states[i].KineticEnergy : 0;
+            sum.IsPushed |= states[i].Torque != Vector.Zero;
         }
     }
 
-    /// <summary>Takes back what has been gained since.</summary>
+    /// <summary>Takes back what has been gained since, beyond the work of gravity and forces.</summary>
     /// <param name="states">The same bodies.</param>
     public void End(Span<RigidState> states)
     {
@@ -60,6 +62,7 @@ internal sealed class RigidEnergyGuard
             {
                 ref var sum = ref _sums[_groups.RootOf(i)];
                 sum.Energy += state.KineticEnergy;
+                sum.Work += state.Work;
                 sum.Mass += 1 / state.InverseMass;
                 sum.Momentum += (1 / state.InverseMass) * state.Velocity;
             }
@@ -68,11 +71,13 @@ internal sealed class RigidEnergyGuard
         for (var i = 0; i < states.Length; i++)
         {
             ref readonly var sum = ref _sums[_groups.RootOf(i)];
-            if (states[i].IsDynamic && !sum.IsPushed && sum.Energy > (1 + MaxGain) * sum.EnergyBefore)
+            var maxEnergy = Math.Max(0, sum.EnergyBefore + sum.Work);
+            if (states[i].HasContacts && !sum.IsPushed && sum.Energy > maxEnergy + (MaxGain * Math.Max(sum.Energy, sum.EnergyBefore)))
             {
                 var centreVelocity = sum.HasSurface ? Vector.Zero : sum.Momentum / sum.Mass;
                 var energyOfCentre = 0.5 * sum.Mass * centreVelocity.LengthSquared();
-                var scale = Math.Sqrt(Math.Max(0, sum.EnergyBefore - energyOfCentre) / (sum.Energy - energyOfCentre));
+                var energyAbout = maxEnergy - energyOfCentre;
+                var scale = energyAbout > 0 ? Math.Sqrt(energyAbout / (sum.Energy - energyOfCentre)) : 0;
                 states[i].Velocity = centreVelocity + (scale * (states[i].Velocity - centreVelocity));
                 states[i].Spin *= scale;
             }
@@ -84,6 +89,7 @@ internal sealed class RigidEnergyGuard
     {
         public double EnergyBefore;
         public double Energy;
+        public double Work;
         public double Mass;
         public Vector Momentum;
         public bool HasSurface;

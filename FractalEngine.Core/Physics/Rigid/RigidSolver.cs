@@ -27,11 +27,9 @@ internal static class RigidSolver
     /// <param name="states">The bodies, and what no force moves.</param>
     /// <param name="rows">The contacts; their impulses are those of the last substep for a start.</param>
     /// <param name="substep">Length of the substep, seconds.</param>
-    /// <param name="guard">Takes back energy that contacts add.</param>
     /// <param name="maxAngle">Radians that a body may turn.</param>
     /// <returns>The seconds that have been made: fewer where a body would turn farther.</returns>
-    public static double Solve(
-        Span<RigidState> states, Span<RigidRow> rows, double substep, RigidEnergyGuard guard, double maxAngle)
+    public static double Solve(Span<RigidState> states, Span<RigidRow> rows, double substep, double maxAngle)
     {
         foreach (ref var row in rows)
         {
@@ -39,13 +37,11 @@ internal static class RigidSolver
         }
 
         Accelerate(states, substep);
-        guard.Begin(states, rows);
         WarmStart(states, rows);
         SolveRounds(states, rows, substep);
         var made = MadeOf(states, substep, maxAngle);
         Move(states, made);
         Bounce(states, rows);
-        guard.End(states);
         RestoreGaps(states, rows);
         Accelerate(states, made - substep);
         return made;
@@ -68,6 +64,7 @@ internal static class RigidSolver
     {
         foreach (ref var state in states)
         {
+            state.TravelMoved = state.Travel;
             state.TurnMoved = state.Turn;
         }
 
@@ -121,7 +118,7 @@ internal static class RigidSolver
 
         foreach (ref var state in states)
         {
-            if (state.HasContacts && state.IsDynamic)
+            if (state.HasContacts && state.IsDynamic && !state.IsHeld)
             {
                 var kept = state.Damping > 0 ? Math.Exp(-state.Damping * substep) : 1;
                 state.Velocity = kept * (state.Velocity + (substep * state.Acceleration));
@@ -134,7 +131,7 @@ internal static class RigidSolver
     {
         foreach (ref var state in states)
         {
-            if (state.HasContacts || !state.IsDynamic)
+            if ((state.HasContacts && !state.IsHeld) || !state.IsDynamic)
             {
                 state.Move(substep);
             }

@@ -30,6 +30,9 @@ internal struct RigidState
     /// <summary>How the body had turned before the present substep.</summary>
     public Orientation TurnBefore;
 
+    /// <summary>How far the reference point had gone before it was moved apart from others.</summary>
+    public Vector TravelMoved;
+
     /// <summary>How the body had turned before it was moved apart from others.</summary>
     public Orientation TurnMoved;
 
@@ -59,6 +62,12 @@ internal struct RigidState
 
     /// <summary>True for a body with contacts, which goes with the others in small steps.</summary>
     public bool HasContacts;
+
+    /// <summary>True for a body that was stopped at once in the last substep: in this one it is only moved apart from others.</summary>
+    public bool IsHeld;
+
+    /// <summary>Work of gravity and forces in the present substep, joules; infinite for what something carries.</summary>
+    public double Work;
 
     /// <summary>True for a body that forces move.</summary>
     public readonly bool IsDynamic => InverseMass > 0;

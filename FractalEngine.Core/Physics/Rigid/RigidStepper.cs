@@ -28,9 +28,8 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
     // So often does what moves by itself push a body in a step; then it carries it.
     private const int MaxPushes = 16;
 
-    // What makes a smaller part of its way counts as held, and after so many substeps it is slowed down.
+    // What makes a smaller part of its way counts as held.
     private const double MinFraction = 0.01;
-    private const int MaxHeldCount = 8;
 
     private readonly Dictionary<object, RigidShape> _shapes = [];
     private readonly List<RigidSurface> _surfaces = [];
@@ -433,8 +432,9 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         }
 
         var substep = fraction * _seconds;
+        _guard.Begin(states, CollectionsMarshal.AsSpan(_rows));
         var made = RigidSolver.Solve(
-            states, CollectionsMarshal.AsSpan(_rows), substep, _guard, _isMoving && !canTurn ? MaxAngle : double.PositiveInfinity);
+            states, CollectionsMarshal.AsSpan(_rows), substep, _isMoving && !canTurn ? MaxAngle : double.PositiveInfinity);
         PlanMotions(time, made < substep ? made / _seconds : fraction);
         _sweep.StopBodies(_pairs, _surfaces);
         var cut = canCut && _isMoving ? FirstPush(made) : 1;
@@ -452,6 +452,16 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             else
             {
                 _states[i].Shorten(cut);
+            }
+        }
+
+        _guard.End(states);
+        for (var i = 0; i < bodies.Count; i++)
+        {
+            if (states[i].IsDynamic)
+            {
+                bodies[i].Velocity = states[i].Velocity;
+                bodies[i].AngularVelocity = states[i].Spin;
             }
         }
 
@@ -534,7 +544,7 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             return;
         }
 
-        var body = surface.Body!;
+        var displacement = state.Travel - state.TravelMoved;
         if (surface.Fraction < 1)
         {
             var energy = state.KineticEnergy - (Vector.Dot(state.Acceleration, state.Travel) / state.InverseMass);
@@ -548,18 +558,13 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
             state.LimitEnergy(energy + (Vector.Dot(state.Acceleration, state.Travel) / state.InverseMass));
         }
 
-        // What cannot move for a whole step loses the speed that it would otherwise gather.
-        body.HeldCount = isTimeKept ? body.HeldCount : surface.Fraction < MinFraction ? body.HeldCount + 1 : 0;
-        if (body.HeldCount >= MaxHeldCount)
-        {
-            state.Velocity *= 0.5;
-            state.Spin *= 0.5;
-        }
-
-        body.Position += state.Travel - state.TravelBefore;
-        body.SetOrientation(state.Turn.After(state.Orientation));
-        body.Velocity = state.Velocity;
-        body.AngularVelocity = state.Spin;
+        // What leaves a contact too slowly for its turn is stopped at once, again and again: first it needs the gap that it lacks.
+        state.IsHeld = surface.Fraction < MinFraction && !isTimeKept && !state.IsHeld;
+        var travel = state.Travel - state.TravelBefore;
+        state.Work = surface.Carrier is null
+            ? Vector.Dot(state.Acceleration, travel - (surface.Fraction * displacement)) / state.InverseMass : double.PositiveInfinity;
+        surface.Body!.Position += travel;
+        surface.Body.SetOrientation(state.Turn.After(state.Orientation));
     }
 
     private void EndStep()
