@@ -42,7 +42,7 @@ public sealed class CoveredSidesDrawingTests
             RenderScenes.Draw(loaded, view, Width, Height, settings), "a sponge");
     }
 
-    /// <summary>Gaps of floats that are filled have the size of a float, in any units of the mesh, and along each axis of a flat object.</summary>
+    /// <summary>Filled gaps have the size of rounding, in any units of the mesh, and along each axis of a flat object.</summary>
     [SkippableTheory]
     [InlineData(1e4, 1, 1, 1)]
     [InlineData(1e-4, 1, 1, 1)]
