@@ -44,9 +44,9 @@ internal sealed class InstanceList(bool hasPathHashes)
     /// <param name="rank">Rank of the object in the order of culling.</param>
     public ReadOnlySpan<float> GradientFactorsOf(int rank) => Slice(_gradientFactors, 1, rank);
 
-    /// <summary>Covered sides of the instances of an object with such: the sums of their bits, and growths, [n × 2].</summary>
+    /// <summary>Covered sides of the instances of an object with such: the sums of their bits, [n].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
-    public ReadOnlySpan<float> CoveredSidesOf(int rank) => Slice(_coveredSides, 2, rank);
+    public ReadOnlySpan<float> CoveredSidesOf(int rank) => Slice(_coveredSides, 1, rank);
 
     /// <summary>Tints of the instances of an object with colours: what is added, and what is kept, [n × 4].</summary>
     /// <param name="rank">Rank of the object in the order of culling.</param>
@@ -120,9 +120,9 @@ internal sealed class InstanceList(bool hasPathHashes)
             SetGradientFactor(other._gradientFactors[index]);
         }
 
-        if (2 * index < other._coveredSides.Length)
+        if (index < other._coveredSides.Length)
         {
-            SetCoveredSides(other._coveredSides[2 * index], other._coveredSides[(2 * index) + 1]);
+            SetCoveredSides(other._coveredSides[index]);
         }
 
         if (index * FloatsPerTint < other._paletteColours.Length)
@@ -152,16 +152,15 @@ internal sealed class InstanceList(bool hasPathHashes)
         _gradientFactors[Count - 1] = gradientFactor;
     }
 
-    /// <summary>Sets the covered sides of the last instance, and how many times as large it is drawn.</summary>
-    public void SetCoveredSides(float sides, float growth)
+    /// <summary>Sets the covered sides of the last instance.</summary>
+    public void SetCoveredSides(float sides)
     {
-        if (_coveredSides.Length < 2 * Count)
+        if (_coveredSides.Length < Count)
         {
-            Array.Resize(ref _coveredSides, _rows.Length / FloatsPerInstance * 2);
+            Array.Resize(ref _coveredSides, _rows.Length / FloatsPerInstance);
         }
 
-        _coveredSides[(2 * Count) - 2] = sides;
-        _coveredSides[(2 * Count) - 1] = growth;
+        _coveredSides[Count - 1] = sides;
     }
 
     /// <summary>Sets the tint of the last instance.</summary>

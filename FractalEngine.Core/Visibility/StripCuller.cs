@@ -1,5 +1,4 @@
 using System.Runtime.CompilerServices;
-using System.Runtime.Intrinsics;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
@@ -27,9 +26,6 @@ internal sealed class StripCuller
     // The rule for small children holds up to this multiple of the minimum size: children that are tiny beside the gaps between them are
     // no solid.
     private const double MaxProxySizeRatio = 3;
-
-    // By the distance from the camera: some units in the last place of a float.
-    private const double FloatGap = 5e-7;
 
     private readonly OccluderRasterizer _rasterizer = new();
     private readonly ChildFootprints _footprints = new();
@@ -299,14 +295,6 @@ internal sealed class StripCuller
             node.ChildTints.Length == 0 ? path : path.WithTint(node.ChildTints[child]));
     }
 
-    /// <summary>
-    /// Computes how many times as large boxes are drawn whose covered sides are left out: where they meet, floats of their places differ in
-    /// the last digits, and nothing is behind a gap.
-    /// </summary>
-    private static float GrowthOf(in SimdAffineMap instanceToWorld) =>
-        (float)(1 + (FloatGap * Math.Sqrt(Vector256.Dot(instanceToWorld.Translation, instanceToWorld.Translation)
-            / Vector256.Dot(instanceToWorld.V1, instanceToWorld.V1))));
-
     private static SimdAffineMap ToFractal(in StripContext context, in SimdAffineMap nodeToView)
     {
         var viewToFractal = context.ViewToFractal;
@@ -359,8 +347,7 @@ internal sealed class StripCuller
         if (context.Hierarchy.HasCoveredSides)
         {
             // A proxy stands beside others whose parts may be drawn, with holes.
-            var sides = instance.Node.ChildMaps.Length == 0 ? instance.Path.CoveredSides : 0;
-            instances.SetCoveredSides(sides, sides == 0 ? 1 : GrowthOf(in instanceToWorld));
+            instances.SetCoveredSides(instance.Node.ChildMaps.Length == 0 ? instance.Path.CoveredSides : 0);
         }
 
         if (context.HasSkyParts)

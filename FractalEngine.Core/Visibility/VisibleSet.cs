@@ -115,8 +115,8 @@ public sealed class VisibleSet
 
     /// <summary>
     /// Sides that are never seen, of an object whose hierarchy has <see cref="LodHierarchy.HasCoveredSides"/>. For each of
-    /// <see cref="Instances"/> the sum of 1, 2 and 4 for those towards +x, +y and +z of the base mesh and 8, 16 and 32 for −x, −y and −z,
-    /// and how many times as large the others are drawn about the middle, so that rounding leaves no gap between them, [n × 2].
+    /// <see cref="Instances"/> the sum of 1, 2 and 4 for those towards +x, +y and +z of the base mesh and 8, 16 and 32 for −x, −y and
+    /// −z, [n].
     /// </summary>
     /// <param name="objectIndex">Index of the object in the list of <see cref="Cull"/>.</param>
     /// <param name="chunk">Index of the chunk, less than <see cref="ChunkCount"/>.</param>

@@ -29,7 +29,7 @@ internal abstract class GlObject : IDisposable
     protected GlResources Resources { get; }
 
     /// <summary>
-    /// Deletes the object at once on the context's thread, otherwise when that thread next draws. Harmless when repeated.
+    /// Deletes the object at once where its context is current, otherwise when that is next drawn in. Harmless when repeated.
     /// </summary>
     public void Dispose()
     {

@@ -5,9 +5,10 @@ namespace FractalEngine.Render.Gl;
 
 /// <summary>
 /// Registers the GL objects of one context, alive and pending deletion. GL is called only on the context's thread; an object that is
-/// disposed on another thread waits here until the context's thread next draws.
+/// disposed on another thread, or while another context is current, waits here until this one next draws.
 /// </summary>
-internal sealed class GlResources
+/// <param name="isCurrent">Whether the context is the current one of its thread. GL means no other one by its names.</param>
+internal sealed class GlResources(Func<bool> isCurrent)
 {
     // More than the programs of one scene.
     private const int MaxIdlePrograms = 64;
@@ -39,7 +40,7 @@ internal sealed class GlResources
         }
     }
 
-    /// <summary>Deletes the objects that were disposed on other threads. Costs a lock when there are none.</summary>
+    /// <summary>Deletes the objects that were disposed elsewhere, in the context. Costs a lock when there are none.</summary>
     public void DeletePending()
     {
         RequireGlThread();
@@ -131,7 +132,7 @@ internal sealed class GlResources
         lock (_lock)
         {
             _liveObjects.Remove(item);
-            if (!IsGlThread)
+            if (!IsGlThread || !isCurrent())
             {
                 _pendingDeletion.Add(item);
                 return;

@@ -21,7 +21,7 @@ layout(location = 8) in vec3 skyAbove; // parts of the sky that the instance's s
 layout(location = 9) in vec3 skyBelow; // towards -x, -y and -z
 #endif
 #ifdef COVERED_SIDES
-layout(location = 12) in vec2 coveredSides; // sum of 1, 2, 4 for sides towards x, y, z and 8, 16, 32 for the others; growth
+layout(location = 12) in float coveredSides; // sum of 1, 2, 4 for sides towards x, y, z and 8, 16, 32 for the others
 #endif
 layout(location = 10) in vec4 mapTint; // what maps add to the colour, linear light, and the share w that it keeps; else 0, 0, 0, 1
 layout(location = 11) in vec4 paletteColour; // of a gradient with a palette, linear light, and 0; else 0, 0, 0, 1
@@ -107,7 +107,11 @@ void main()
     grade(tint);
 #endif
 #ifdef COVERED_SIDES
-    vec4 local = vec4(coveredSides.y * position, 1.0);
+    // Where boxes meet whose sides are left out, floats of their places differ in the last digits, and nothing is behind a gap. So each is
+    // larger by some units in the last place of the distance from the camera, along each axis whatever its scale.
+    vec3 scales = sqrt(instanceRow0.xyz * instanceRow0.xyz + instanceRow1.xyz * instanceRow1.xyz + instanceRow2.xyz * instanceRow2.xyz);
+    float gap = coveredSides > 0.0 ? 5e-7 * length(vec3(instanceRow0.w, instanceRow1.w, instanceRow2.w)) : 0.0;
+    vec4 local = vec4(position + sign(position) * gap / max(scales, 1e-30), 1.0);
 #else
     vec4 local = vec4(position, 1.0);
 #endif
@@ -128,7 +132,7 @@ void main()
 #ifdef COVERED_SIDES
     // All corners of a side that is never seen are one point, so that its triangles end here. Normals lie along the axes.
     float side = dot(max(normal, 0.0), vec3(1.0, 2.0, 4.0)) + dot(max(-normal, 0.0), vec3(8.0, 16.0, 32.0));
-    gl_Position = (int(coveredSides.x) & int(side + 0.5)) != 0 ? vec4(0.0, 0.0, 0.0, 1.0) : gl_Position;
+    gl_Position = (int(coveredSides) & int(side + 0.5)) != 0 ? vec4(0.0, 0.0, 0.0, 1.0) : gl_Position;
 #endif
 
     // The cofactor matrix maps the cross product of two edges to that of the mapped edges, also under skewed, mirrored and flat maps:

@@ -72,7 +72,7 @@ internal sealed class VisibleInstances : IDisposable
         if (hasCoveredSides)
         {
             _coveredSides = new(resources, $"covered sides of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_coveredSides, CoveredSidesLocation, 2, 2, 0, divisor: 1);
+            _vertexArray.Attribute(_coveredSides, CoveredSidesLocation, 1, 1, 0, divisor: 1);
         }
 
         if (hasSkyParts)
@@ -119,7 +119,7 @@ internal sealed class VisibleInstances : IDisposable
 
         if (_coveredSides is not null)
         {
-            Upload(_coveredSides, 2, static (set, index, chunk) => set.CoveredSides(index, chunk));
+            Upload(_coveredSides, 1, static (set, index, chunk) => set.CoveredSides(index, chunk));
         }
 
         if (_skyParts is not null && hasSkyParts)

@@ -86,10 +86,13 @@ internal sealed class PlatformWindow : IDisposable
         }
     }
 
+    /// <summary>Whether the window's context is the current one of the thread.</summary>
+    public bool IsCurrent => _context.IsCurrent;
+
     /// <summary>Makes the window's context the current one of the thread.</summary>
     public void MakeCurrent()
     {
-        if (!_context.IsCurrent)
+        if (!IsCurrent)
         {
             _context.MakeCurrent(_window.WindowInfo);
         }

@@ -130,10 +130,13 @@ internal sealed class PlatformWindow : IDisposable
         }
     }
 
+    /// <summary>Whether the window's context is the current one of the thread.</summary>
+    public bool IsCurrent => _window.Context.IsCurrent;
+
     /// <summary>Makes the window's context the current one of the thread.</summary>
     public void MakeCurrent()
     {
-        if (!_window.Context.IsCurrent)
+        if (!IsCurrent)
         {
             _window.MakeCurrent();
         }

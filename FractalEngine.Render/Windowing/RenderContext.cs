@@ -20,7 +20,7 @@ public abstract class RenderContext : IDisposable
     {
         Window = window;
         _reportLeak = reportLeak ?? Console.Error.WriteLine;
-        Resources = new();
+        Resources = new(() => window.IsCurrent);
         GL.GetInteger(GetPName.MajorVersion, out int major);
         GL.GetInteger(GetPName.MinorVersion, out int minor);
         GL.GetInteger(GetPName.MaxRenderbufferSize, out int maxFrameSize);

@@ -42,6 +42,29 @@ public sealed class CoveredSidesDrawingTests
             RenderScenes.Draw(loaded, view, Width, Height, settings), "a sponge");
     }
 
+    /// <summary>Filled gaps have the size of rounding, in any units of the mesh, and along each axis of a flat object.</summary>
+    [SkippableTheory]
+    [InlineData(1e4, 1, 1, 1)]
+    [InlineData(1e-4, 1, 1, 1)]
+    [InlineData(1, 1e-4, 1, 1)]
+    [InlineData(1, 1, 1e-4, 1)]
+    [InlineData(1, 1, 1, 1e-4)]
+    public void Sponge_OfAnyUnitsAndShape_LooksAsWithAllSides(double unit, double x, double y, double z)
+    {
+        var sponge = RenderScenes.Menger(1).Fractal;
+        var set = sponge.LevelAt(0).Transformations.Select(map => map with { Position = unit * map.Position });
+        var model = new FractalModel(Fractal.Of(RenderScenes.Cube(unit)).Repeat(set, 3)) { SourcePath = "menger.fdo" };
+        var placement = Transformation.Identity with { Scale = new Vector(x, y, z) / unit };
+        var scene = RenderScenes.Scene(
+            new Scene { Lights = [RenderScenes.FullLight], Background = new(0.9, 0.1, 0.1) }, (model, placement, Colour.White));
+        var view = new View(
+            CameraFraming.LookAt(new(-1.9, 1.5, -2.1), Vector.Zero, Vector.J, 50, Handedness.Left), Projection.Perspective);
+        var settings = new RenderSettings { Samples = 0 };
+        ImageComparison.AssertSame(
+            RenderScenes.Draw(scene, view, Width, Height, settings with { BackFaceCulling = false }),
+            RenderScenes.Draw(scene, view, Width, Height, settings), "a sponge");
+    }
+
     /// <summary>A file may give its faces any normals, which then don't tell sides apart.</summary>
     [Fact]
     public void Cubes_WithNormalsOfOtherSides_KeepAllSides()

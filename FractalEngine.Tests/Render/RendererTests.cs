@@ -70,6 +70,20 @@ public sealed class RendererTests
         Assert.NotSame(notices[0], renderer.Notices[0]);
     }
 
+    /// <summary>What one renderer deletes may have the same name in GL as what the other one draws with.</summary>
+    [SkippableFact]
+    public void Draw_OfTwoRenderersInTurn_IsThatOfEachAlone()
+    {
+        using var first = Open();
+        using var second = Open();
+        var expected = (first.Draw(Sponge), second.Draw(Sponge));
+        for (var round = 0; round < 3; round++)
+        {
+            Assert.Equal(expected.Item1.Pixels, first.Draw(Sponge with { }).Pixels);
+            Assert.Equal(expected.Item2.Pixels, second.Draw(Sponge).Pixels);
+        }
+    }
+
     [SkippableFact]
     public void Draw_ScenesInTurn_AreThoseOfRenderersOfTheirOwn()
     {

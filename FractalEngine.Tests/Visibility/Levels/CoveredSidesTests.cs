@@ -128,8 +128,8 @@ public class CoveredSidesTests
         var boxes = CullingViews.VisibleMaps(set, item).ConvertAll(map => item.Hierarchy.Mesh.Bounds.Transform(map));
         float[] sides = item.Hierarchy.HasCoveredSides
             ? [.. Enumerable.Range(0, VisibleSet.ChunkCount).SelectMany(chunk => set.CoveredSides(0, chunk).ToArray())]
-            : new float[2 * boxes.Count];
-        Assert.Equal(2 * boxes.Count, sides.Length);
+            : new float[boxes.Count];
+        Assert.Equal(boxes.Count, sides.Length);
         var rectangles = boxes.SelectMany(one => Enumerable.Range(0, 6).Select(side => KeyOf(one, side, box)))
             .GroupBy(static key => key).ToDictionary(static group => group.Key, static group => group.Count());
         var (covered, hidden) = (0, 0);
@@ -139,7 +139,7 @@ public class CoveredSidesTests
             {
                 var (axis, isHigh, place) = KeyOf(boxes[i], side, box);
                 var isHidden = rectangles.ContainsKey((axis, !isHigh, place));
-                var isCovered = ((int)sides[2 * i] & (1 << side)) != 0;
+                var isCovered = ((int)sides[i] & (1 << side)) != 0;
                 Assert.True(isHidden || !isCovered, $"side {side} of {boxes[i]}");
                 hidden += isHidden ? 1 : 0;
                 covered += isCovered ? 1 : 0;
