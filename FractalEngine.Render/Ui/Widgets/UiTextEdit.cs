@@ -9,7 +9,7 @@ namespace FractalEngine.Render.Ui.Widgets;
 public sealed class UiTextEdit(string text = "", Func<string>? readClipboard = null, Action<string>? writeClipboard = null)
 {
     /// <summary>The text as it is edited so far.</summary>
-    public string Text { get; private set; } = text;
+    public string Text { get; private set; } = text ?? throw new ArgumentNullException(nameof(text));
 
     /// <summary>Index of the character behind the caret.</summary>
     public int Caret { get; private set; } = text.Length;
@@ -26,6 +26,7 @@ public sealed class UiTextEdit(string text = "", Func<string>? readClipboard = n
     /// <summary>Begins with a text, all of it selected.</summary>
     public void Begin(string text)
     {
+        ArgumentNullException.ThrowIfNull(text);
         Text = text;
         Anchor = 0;
         Caret = text.Length;

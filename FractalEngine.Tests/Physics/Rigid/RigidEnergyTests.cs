@@ -31,7 +31,7 @@ public class RigidEnergyTests
     }
 
     [Fact]
-    public void Bodies_ThrownIntoABox_GainNoEnergy() => Throw(60);
+    public void Bodies_ThrownIntoABox_GainNoEnergy() => Throw(20);
 
     [Fact]
     [Trait("Category", "Soak")]
