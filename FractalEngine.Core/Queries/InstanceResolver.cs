@@ -28,16 +28,14 @@ internal static class InstanceResolver
         foreach (var childIndex in context.BestPathBuffer(pathLength)[..pathLength])
         {
             var child = subFractal.Children[childIndex];
-            if (child.Group is { } group)
+            if (child.Group is null)
             {
-                subFractal = group;
-                continue;
+                map = SimdAffineMap.Compose(in map, in child.Map);
+                maxTranslation = Vector256.MaxNative(maxTranslation, Vector256.Abs(map.Translation));
             }
 
-            map = SimdAffineMap.Compose(in map, in child.Map);
-            maxTranslation = Vector256.MaxNative(maxTranslation, Vector256.Abs(map.Translation));
             state = hierarchy.Enter(child, in state);
-            subFractal = hierarchy.At(state.Level);
+            subFractal = hierarchy.At(child, state.Level);
         }
 
         context.SetInstance(hierarchy, start, pathLength, subFractal.BaseIndex);

@@ -23,7 +23,6 @@ internal ref struct FractalSearchState
     private readonly double _positionMagnitude;
     private readonly double _tolerance;
     private Span<int> _path;
-    private Span<int> _closestPath;
     private Span<double> _scratch;
 
     /// <summary>Begins a search without a result.</summary>
@@ -37,7 +36,6 @@ internal ref struct FractalSearchState
         _positionMagnitude = positionMagnitude;
         _context = context;
         _path = context.PathBuffer(QueryContext.MaxStackDepth);
-        _closestPath = context.BestPathBuffer(QueryContext.MaxStackDepth);
         _scratch = context.ScratchBuffer(QueryContext.InitialScratchLength);
         _tolerance = RoundingErrors.Coordinate * magnitude;
         BoundFactor = (1 + Math.Min(epsilon, MaxEpsilon)) * (1 + Math.Min(epsilon, MaxEpsilon));
@@ -169,12 +167,7 @@ internal ref struct FractalSearchState
         ClosestDistanceSquared = distanceSquared;
         ClosestFace = faceIndex;
         ClosestDepth = depth;
-        if (depth > _closestPath.Length)
-        {
-            _closestPath = _context.BestPathBuffer(_path.Length);
-        }
-
-        _path[..depth].CopyTo(_closestPath);
+        _path[..depth].CopyTo(_context.BestPathBuffer(_path.Length));
         SetCutoff(CutoffFor(distanceSquared));
     }
 
