@@ -26,6 +26,9 @@ internal sealed class ContactSearch : PairSearch
     private double _leastGap;
     private Vector _middle;
 
+    /// <summary>True where the surfaces of the last search cross.</summary>
+    public bool HasCrossed => _features.HasCrossed;
+
     /// <summary>Finds the contacts of two surfaces.</summary>
     /// <param name="first">The first surface.</param>
     /// <param name="motion1">Where it is.</param>

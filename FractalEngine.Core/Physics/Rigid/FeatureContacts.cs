@@ -50,6 +50,9 @@ internal sealed class FeatureContacts
     /// <summary>Number of pairs of corners, edges and triangles that have been measured.</summary>
     public long Tests { get; private set; }
 
+    /// <summary>True where an edge has been found to go through the other surface by more than the contact distance.</summary>
+    public bool HasCrossed { get; private set; }
+
     /// <summary>The contacts that have been found, reduced.</summary>
     public ContactManifold Manifold { get; } = new();
 
@@ -66,6 +69,7 @@ internal sealed class FeatureContacts
         _margin = margin;
         _maxDepth = MaxDepth * radius;
         _near = near;
+        HasCrossed = false;
         _edges.Clear();
         _faces.Clear();
         Manifold.Begin(distance);
@@ -163,6 +167,7 @@ internal sealed class FeatureContacts
         }
         else
         {
+            HasCrossed = true;
             Manifold.Add(in contact);
         }
     }

@@ -1,3 +1,6 @@
+using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics.Descriptions;
+
 namespace FractalEngine.Core.Physics.Rigid;
 
 /// <summary>
@@ -19,10 +22,14 @@ internal sealed class RigidPair
     // Relative to the contact distance: contacts are kept from step to step while the surfaces have come no closer, or moved no farther.
     private const double MaxKeptWay = 0.25;
 
+    // Relative to the radius: how far bodies that begin within each other are moved apart in a substep.
+    private const double PartingWay = 0.02;
+
     private readonly List<NearPair> _near = [];
     private readonly List<(int First, int Second)> _leaves = [];
     private ContactPoint? _hit;
     private ContactPoint? _sweptHit;
+    private bool _isParting;
     private double _margin;
     private double _way;
     private double _substepWay;
@@ -40,8 +47,11 @@ internal sealed class RigidPair
     /// <summary>Index of the second one's state.</summary>
     public int SecondIndex { get; private set; }
 
-    /// <summary>True where one carries the other, or a third one both, so that nothing comes closer.</summary>
-    private bool IsCarried => First.Carrier is not null && First.Carrier == Second.Carrier;
+    /// <summary>
+    /// True for what does not stop each other: where one carries the other, or a third one both, nothing comes closer; and bodies that begin
+    /// within each other come free first.
+    /// </summary>
+    private bool IsFree => _isParting || (First.Carrier is not null && First.Carrier == Second.Carrier);
 
     /// <summary>What is met, of the first and the second, by the other one that moves by itself or is carried; null for none.</summary>
     public (RigidSurface Met, int Index, RigidSurface Carrier)? Push => (First.Carrier, Second.Carrier) switch
@@ -86,6 +96,7 @@ internal sealed class RigidPair
         Contacts.Clear();
         Rows.Clear();
         _hit = null;
+        _isParting = false;
         ForgetNear();
     }
 
@@ -123,6 +134,15 @@ internal sealed class RigidPair
             Contacts.Add(hit with { Point = hit.Point - First.Motion.Origin });
             _hit = null;
         }
+
+        _isParting = search.HasCrossed && Second.Body is not null;
+        if (_isParting)
+        {
+            // Whatever crosses has begun so, and no normal of a face tells the way out.
+            var between = motion1.Position - motion2.Position;
+            Contacts.Clear();
+            Contacts.Add(new(-0.5 * between, between != Vector.Zero ? between.UnitVectorOrZero() : Vector.J, -PartingWay * Radius));
+        }
     }
 
     /// <summary>Finds when the surfaces come too close in a substep of which both make the whole motion.</summary>
@@ -132,7 +152,7 @@ internal sealed class RigidPair
         _swept = (1, 1);
         var (motion1, motion2) = RelativeMotions(First.Motion, Second.Motion);
         _substepWay = MaxWay(in motion1, in motion2);
-        Impact = IsCarried ? 1 : Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
+        Impact = IsFree ? 1 : Math.Min(Impact, Sweep(sweep, in motion1, in motion2, 1));
         FirstImpact = Impact;
     }
 
@@ -153,7 +173,7 @@ internal sealed class RigidPair
     }
 
     /// <summary>True where one has stopped since the last sweep, and the other one goes on.</summary>
-    public bool IsSweepDue => !IsCarried && _swept != (First.Fraction, Second.Fraction) && First.Fraction != Second.Fraction
+    public bool IsSweepDue => !IsFree && _swept != (First.Fraction, Second.Fraction) && First.Fraction != Second.Fraction
         && (First.Fraction < Second.Fraction ? Second : First).Motion.IsMoving;
 
     /// <summary>Ends a substep. What is near is looked for anew where the two have met, or may have come too close.</summary>
@@ -161,7 +181,7 @@ internal sealed class RigidPair
     {
         _way += _substepWay;
         var isUsedUp = _margin > 0 && _way + _substepWay > _margin - (2 * Distance) && _substepWay < MaxGap * Radius;
-        IsSearchDue = Impact < 1 || isUsedUp;
+        IsSearchDue = Impact < 1 || isUsedUp || _isParting;
         _hit = Impact < 1 && Math.Min(First.Fraction, Second.Fraction) >= Impact ? _sweptHit : null;
     }
 

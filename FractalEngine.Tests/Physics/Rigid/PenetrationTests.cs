@@ -49,6 +49,28 @@ public class PenetrationTests
     [Trait("Category", "Soak")]
     public void LargeHeap_OfAllShapes_NeverReachesIntoItself(int seed) => CheckHeap(24, 600, seed);
 
+    /// <summary>What begins within others comes free of all, and is given no speed by that.</summary>
+    [Fact]
+    public void Bodies_ThatBeginWithinEachOther_ComeApartWithoutASpeed() => Seeded.Run(5, random =>
+    {
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
+        for (var i = 0; i < 14; i++)
+        {
+            world.Add(new BodyDescription(random.Vector(0.8), new MeshShape(Kinds[i % Kinds.Length].Model, 0.7 * random.Orthogonal())));
+        }
+
+        world.Run(60, () => Assert.All(world.Bodies, static body => Assert.Equal(0, body.Velocity.Length(), 1e-9)));
+        foreach (var body in world.Bodies)
+        {
+            foreach (var other in world.Bodies.Take(body.Index))
+            {
+                CheckApart(
+                    world, body, $"body {other.Index}", Kinds[body.Index % Kinds.Length].Parts.Place(body),
+                    Kinds[other.Index % Kinds.Length].Parts.Place(other));
+            }
+        }
+    });
+
     [Fact]
     public void Oracle_SeesVerticesInsideAndEdgesThroughFaces()
     {
