@@ -69,7 +69,10 @@ public sealed class QueryContext
     /// </summary>
     public int ObjectIndex { get; internal set; }
 
-    /// <summary>Index of the base mesh that the last query found among those of the fractal; 0 where there is only one.</summary>
+    /// <summary>
+    /// Index of the base mesh that the last query found among those of the fractal; 0 where there is only one, or a collider has expanded
+    /// the fractal.
+    /// </summary>
     public int MeshIndex { get; internal set; }
 
     /// <summary>Memory for the path of a search. It is kept for the next search with its contents.</summary>
