@@ -103,7 +103,7 @@ internal static class QueryCommand
         Console.Out.Write(FormatResults(
             results, format.Json, format.Header ? header : "",
             result => result.IsFound ? FormatLine(result.Closest, result.FaceTests, format.ErrorBound) : "none",
-            result => result.IsFound ? FormatJson(file.Scene, result, format.ErrorBound) : "null"));
+            result => result.IsFound ? FormatJson(file.Scene, result, format.ErrorBound, kind == ColliderKind.Exact) : "null"));
         return ExitCode.Done;
 
         PointResult Find(Vector position, QueryContext pointContext)
@@ -155,7 +155,7 @@ internal static class QueryCommand
         return text.Append(isJson ? "]\n" : "");
     }
 
-    private static string FormatJson(LoadedScene scene, in PointResult result, bool hasErrorBound)
+    private static string FormatJson(LoadedScene scene, in PointResult result, bool hasErrorBound, bool namesMesh)
     {
         var closest = result.Closest;
         var errorBound = hasErrorBound ? string.Create(CultureInfo.InvariantCulture, $", \"errorBound\": {closest.ErrorBound:R}") : "";
@@ -164,7 +164,7 @@ internal static class QueryCommand
         return string.Create(
             CultureInfo.InvariantCulture,
             $"{{\"distance\": {closest.Distance:R}, \"point\": [{point}], \"normal\": [{normal}], "
-            + $"\"face\": {closest.FaceIndex}, {FormatMesh(scene, result.ObjectIndex, result.MeshIndex)}"
+            + $"\"face\": {closest.FaceIndex}, {(namesMesh ? FormatMesh(scene, result.ObjectIndex, result.MeshIndex) : "")}"
             + $"\"object\": {result.ObjectIndex}, \"faceTests\": {result.FaceTests}{errorBound}}}");
     }
 

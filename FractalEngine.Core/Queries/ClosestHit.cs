@@ -18,7 +18,9 @@ namespace FractalEngine.Core.Queries;
 public sealed record ClosestHit(
     double Distance, Vector Point, Vector Normal, int FaceIndex, ImmutableArray<int> InstancePath, int ObjectIndex = 0)
 {
-    /// <summary>Index of the base mesh with the face among those of the fractal; 0 where there is only one.</summary>
+    /// <summary>
+    /// Index of the base mesh with the face among those of the fractal; 0 where there is only one, or a collider has expanded the fractal.
+    /// </summary>
     public int MeshIndex { get; init; }
 
     internal static ClosestHit Of(in ClosestPoint closest, QueryContext context) => new(

@@ -31,6 +31,7 @@ public sealed class QueryContext
     private FractalHierarchy? _pathHierarchy;
     private LevelState _pathStart;
     private int _unnamedLength = -1;
+    private int _savedMeshIndex;
     private double[] _scratch = [];
     private double[] _objectBounds = [];
     private ExpandedChildren? _expandedChildren;
@@ -68,7 +69,10 @@ public sealed class QueryContext
     /// </summary>
     public int ObjectIndex { get; internal set; }
 
-    /// <summary>Index of the base mesh that the last query found among those of the fractal; 0 where there is only one.</summary>
+    /// <summary>
+    /// Index of the base mesh that the last query found among those of the fractal; 0 where there is only one, or a collider has expanded
+    /// the fractal.
+    /// </summary>
     public int MeshIndex { get; internal set; }
 
     /// <summary>Memory for the path of a search. It is kept for the next search with its contents.</summary>
@@ -115,20 +119,20 @@ public sealed class QueryContext
         return _objectBounds.AsSpan(0, count);
     }
 
-    /// <summary>Saves the present path while other objects are queried.</summary>
-    internal void SavePath()
+    /// <summary>Saves the present instance while other objects are queried.</summary>
+    internal void SaveInstance()
     {
         _savedPath.Clear();
         _savedPath.AddRange(InstancePath);
+        _savedMeshIndex = MeshIndex;
     }
 
-    /// <summary>Restores the path that was saved last.</summary>
-    internal void RestorePath()
+    /// <summary>Restores the instance that was saved last.</summary>
+    internal void RestoreInstance()
     {
-        _instancePath.Clear();
-        _unnamedLength = -1;
+        ClearPath();
         _instancePath.AddRange(CollectionsMarshal.AsSpan(_savedPath));
-        _savedPath.Clear();
+        MeshIndex = _savedMeshIndex;
     }
 
     /// <summary>Makes the memory of most searches before the first of them.</summary>

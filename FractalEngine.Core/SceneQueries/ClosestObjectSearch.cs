@@ -102,7 +102,15 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
     /// <returns>False when no face lies within the radius.</returns>
     public readonly bool TryGetResult(out ClosestPoint closest)
     {
-        context.RestorePath();
+        if (_objectIndex < 0)
+        {
+            context.ClearPath();
+        }
+        else
+        {
+            context.RestoreInstance();
+        }
+
         context.ObjectIndex = _objectIndex;
         var errorBound = Math.Min(_closest.Distance, Math.Max(_closest.ErrorBound, _closest.Distance - _lowerBound));
         closest = _closest with { ErrorBound = errorBound };
@@ -127,7 +135,7 @@ internal ref struct ClosestObjectSearch(Vector position, double maxDistance, Que
             _closest = candidate;
             _objectIndex = index;
             _maxDistance = Math.Min(_maxDistance, candidate.Distance);
-            context.SavePath();
+            context.SaveInstance();
         }
     }
 

@@ -36,7 +36,8 @@ public static class BoxLines
 
     /// <summary>Lists the edges of the boxes of all sub-fractals at one level, world space.</summary>
     /// <param name="scene">The scene with its bodies where they are.</param>
-    /// <param name="level">0 for whole objects. Deeper levels have fractals in affine composition only.</param>
+    /// <param name="level">0 for whole objects. Deeper levels have fractals in affine composition only; one whose levels can't be
+    /// bounded has its own box there.</param>
     /// <param name="colour">Colour of the edges, sRGB.</param>
     public static IReadOnlyList<LineSegment> OfLevel(LoadedScene scene, int level, Colour colour)
     {
@@ -46,9 +47,17 @@ public static class BoxLines
         {
             if (level > 0 && placed.Model is FractalModel { Fractal: { Description.Composition: Composition.Affine } fractal })
             {
-                foreach (var (box, map) in fractal.BoxesAt(level).Take(MaxBoxes - (lines.Count / LinesPerBox)))
+                try
                 {
-                    Add(lines, box, placed.ObjectToWorld * map, colour);
+                    foreach (var (box, map) in fractal.BoxesAt(level).Take(MaxBoxes - (lines.Count / LinesPerBox)))
+                    {
+                        Add(lines, box, placed.ObjectToWorld * map, colour);
+                    }
+                }
+                catch (FractalLimitException)
+                {
+                    // The sub-fractals of a few deep fractals have no bounds.
+                    Add(lines, placed.Model.Bounds, placed.ObjectToWorld, colour);
                 }
             }
             else if (level == 0)

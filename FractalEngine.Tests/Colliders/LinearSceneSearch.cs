@@ -37,11 +37,19 @@ internal sealed class LinearSceneSearch(IReadOnlyList<PlacedModel> objects, Coll
                 closest = candidate;
                 objectIndex = next;
                 maxDistance = Math.Min(maxDistance, candidate.Distance);
-                context.SavePath();
+                context.SaveInstance();
             }
         }
 
-        context.RestorePath();
+        if (objectIndex < 0)
+        {
+            context.ClearPath();
+        }
+        else
+        {
+            context.RestoreInstance();
+        }
+
         return objectIndex >= 0;
     }
 

@@ -206,20 +206,19 @@ public sealed class QueryPrimitivesTests
     }
 
     [Fact]
-    public void SavePath_ThenRestorePath_GivesThePathBackOnce()
+    public void SaveInstance_ThenRestoreInstance_GivesTheInstanceBack()
     {
-        var context = new QueryContext();
+        var context = new QueryContext { MeshIndex = 4 };
         Array.ForEach([3, 1, 2], context.AppendToPath);
-        context.SavePath();
+        context.SaveInstance();
         context.ClearPath();
         context.AppendToPath(9);
-        context.RestorePath();
+        context.RestoreInstance();
         Assert.Equal(new[] { 3, 1, 2 }, context.InstancePath.ToArray());
+        Assert.Equal(4, context.MeshIndex);
         context.ReversePath();
         context.ShortenPath(2);
         Assert.Equal(new[] { 2, 1 }, context.InstancePath.ToArray());
-        context.RestorePath();
-        Assert.Empty(context.InstancePath.ToArray());
     }
 
     [Fact]

@@ -1,6 +1,7 @@
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
+using FractalEngine.Core.Generation;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Queries;
 using FractalEngine.Core.SceneQueries;
@@ -54,6 +55,22 @@ public class SceneColliderTests
             out var index));
         Assert.Equal((0.0, 1), (closest.Distance, index));
         Assert.Equal([1, 1], context.InstancePath.ToArray());
+        Assert.False(new SceneCollider(scene).TryFindClosest(new(0, 1e6, 0), 1, context, out _, out index));
+        Assert.Equal((0, -1), (context.InstancePath.Length, index));
+    }
+
+    /// <summary>The box of the second object comes nearer than the point of the first one, its faces do not.</summary>
+    [Fact]
+    public void FindClosest_NamesTheMeshOfTheClosestObject_WhateverWasTestedAfterIt()
+    {
+        var fractal = Fractal.Of(Shapes.Cube()) + Fractal.Of(Samples.Tetrahedron).Apply([Samples.Move(6, 0, 0)]);
+        var diagonal = new Vector(0, 0, -45);
+        var first = new Scene { Objects = [new(fractal) { Placement = new(Vector.Zero, diagonal, Vector.One) }] };
+        var both = new Scene { Objects = [first.Objects[0], new(fractal) { Placement = new(new(4.5, 3, 0), diagonal, Vector.One) }] };
+        var position = new Vector(3.5, 4.2, 0);
+        var expected = new SceneCollider(first).FindClosest(position);
+        Assert.Equal(1, expected.MeshIndex);
+        Assert.Equal(expected, new SceneCollider(both).FindClosest(position));
     }
 
     [Fact]

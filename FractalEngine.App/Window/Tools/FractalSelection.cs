@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Rays;
@@ -16,14 +17,14 @@ internal static class FractalSelection
 
     /// <summary>Numbers of maps of the sets on a path.</summary>
     public static ImmutableArray<int> SetSizes(Fractal fractal, ImmutableArray<int> path) =>
-        [.. (fractal.Follow(path.AsSpan()) ?? []).Select(static step => step.SetSize)];
+        [.. (Follow(fractal, path) ?? []).Select(static step => step.SetSize)];
 
     /// <summary>The map of the instance at the end of a path; null where there is none.</summary>
     /// <param name="fractal">The fractal.</param>
     /// <param name="path">The path. An infinite fractal is hit at any of its levels.</param>
     /// <param name="map">From the frame of the fractal to that of the result.</param>
     public static AffineMap? MapOfInstance(Fractal fractal, ImmutableArray<int> path, AffineMap map) =>
-        fractal.Follow(path.AsSpan()) is { } steps && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
+        Follow(fractal, path) is { } steps && (fractal.Description.IsInfinite || steps is [] or [.., { IsInstance: true }])
             ? MapOf(steps, map)
             : null;
 
@@ -34,7 +35,21 @@ internal static class FractalSelection
     /// <param name="map">From the frame of the sub-fractal that these lead to, to that of the result.</param>
     public static (BoundingBox Box, AffineMap Map)? SubFractalAt(
         Fractal fractal, ImmutableArray<int> path, int firstStep, AffineMap map) =>
-        fractal.Follow(path.AsSpan(), firstStep) is [.., var last] steps ? (last.Box, MapOf(steps, map)) : null;
+        Follow(fractal, path, firstStep) is [.., var last] steps ? (last.Box, MapOf(steps, map)) : null;
+
+    /// <summary>Follows a path; null where there is none, or the sub-fractals on it can't be told.</summary>
+    private static IReadOnlyList<PathStep>? Follow(Fractal fractal, ImmutableArray<int> path, int firstStep = 0)
+    {
+        try
+        {
+            return fractal.Follow(path.AsSpan(), firstStep);
+        }
+        catch (FractalLimitException)
+        {
+            // Rays find instances in hierarchies with fewer levels than sets, and some fractals have no other.
+            return null;
+        }
+    }
 
     private static AffineMap MapOf(IReadOnlyList<PathStep> steps, AffineMap map) =>
         steps.Aggregate(map, static (product, step) => product * step.Map);

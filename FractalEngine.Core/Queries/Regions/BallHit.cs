@@ -7,5 +7,6 @@ namespace FractalEngine.Core.Queries.Regions;
 /// <param name="Point">Its closest point.</param>
 /// <param name="Normal">Its unit normal.</param>
 /// <param name="FaceIndex">Its index in the base mesh.</param>
+/// <param name="MeshIndex">Index of that base mesh.</param>
 /// <param name="Path">Indices of the child instances that lead to it.</param>
-internal readonly record struct BallHit(double Distance, Vector Point, Vector Normal, int FaceIndex, int[] Path);
+internal readonly record struct BallHit(double Distance, Vector Point, Vector Normal, int FaceIndex, int MeshIndex, int[] Path);

@@ -55,7 +55,7 @@ internal struct BallPolicy(Vector centre, double radius, long maxBoundTests, Lis
         }
 
         _path = path.SequenceEqual(_path) ? _path : path.ToArray();
-        hits.Add(new(distance, closest.Point, TriangleKernel.UnitNormal(a, b, c), face, _path));
+        hits.Add(new(distance, closest.Point, TriangleKernel.UnitNormal(a, b, c), face, leaf.BaseIndex, _path));
         return hits.Count <= maxHits;
     }
 

@@ -97,13 +97,17 @@ internal static class RegionQuery
         }
 
         tree.RemoveRepeated(instancePaths, context);
+        context.ClearPath();
         foreach (var hit in found)
         {
             if (instancePaths.TryGetValue(hit.Path, out var instancePath))
             {
                 hits.Add(new(
                     hit.Distance / scale, hit.Point / scale, hit.Normal, hit.FaceIndex,
-                    ImmutableCollectionsMarshal.AsImmutableArray(instancePath), objectIndex));
+                    ImmutableCollectionsMarshal.AsImmutableArray(instancePath), objectIndex)
+                {
+                    MeshIndex = hit.MeshIndex,
+                });
             }
         }
     }

@@ -62,6 +62,21 @@ public sealed class QueryCommandTests : IDisposable
         Assert.InRange(results.RootElement[0].GetProperty("errorBound").GetDouble(), minimum, maximum);
     }
 
+    /// <summary>An expanded fractal is one mesh, whose faces don't tell which base mesh they are of.</summary>
+    [Theory]
+    [InlineData("exact", 2, "tetrahedron")]
+    [InlineData("hierarchy", 14, null)]
+    [InlineData("simple", 14, null)]
+    public void Query_OfSeveralMeshes_NamesThatOfTheFace(string collider, int face, string? mesh)
+    {
+        _folder.Write("two.fdo", "<$>. box + [((6, 0, 0), #, #)] tetrahedron\n");
+        _folder.Write("points.txt", "6 -1 0\n");
+        using var results = JsonDocument.Parse(
+            Run("query", "two.fdo", "--points", "points.txt", "--json", "--collider", collider).Output);
+        Assert.Equal(face, results.RootElement[0].GetProperty("face").GetInt32());
+        Assert.Equal(mesh, results.RootElement[0].TryGetProperty("mesh", out var name) ? name.GetString() : null);
+    }
+
     [Fact]
     public void Query_OfADeepFractal_IsAccurate()
     {

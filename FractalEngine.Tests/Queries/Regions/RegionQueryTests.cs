@@ -50,6 +50,19 @@ public class RegionQueryTests
     }
 
     [Fact]
+    public void FindAllWithin_OfSeveralMeshes_NamesThatOfEachFace()
+    {
+        var collider = Collider.For(Fractal.Of(Shapes.Cube()) + Fractal.Of(Samples.Tetrahedron).Apply([Samples.Move(6, 0, 0)]));
+        var context = new QueryContext();
+        var hits = collider.FindAllWithin(new(3, 0, 0), 100, 100, context);
+        Assert.Equal(12 + 4, hits.Length);
+        Assert.All(hits, static hit => Assert.Equal(hit.Point.X > 3 ? 1 : 0, hit.MeshIndex));
+        Assert.True(context.InstancePath.IsEmpty);
+        var (closest, alone) = (collider.FindClosest(new(7, 0, 0)), collider.FindAllWithin(new(7, 0, 0), 1, 100)[0]);
+        Assert.Equal((closest.FaceIndex, closest.MeshIndex), (alone.FaceIndex, alone.MeshIndex));
+    }
+
+    [Fact]
     public void FindAllWithin_OfMoreThanTheMaximum_IsRefusedWithTheCount()
     {
         var collider = new HierarchyCollider(CollisionMeshes.All["sphere"]());

@@ -1,5 +1,6 @@
 using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -70,6 +71,25 @@ public class PickerTests
         }
 
         Assert.True(count > 60, $"only {count} pixels show the sponge");
+    }
+
+    /// <summary>Rays find the cubes of a row by doubled powers of its map; one level for each of them would be too many.</summary>
+    [Fact]
+    public void Pick_OfAFractalOfTooManySets_SelectsTheInstanceAlone()
+    {
+        var cube = Fractal.Of(Shapes.Cube());
+        var row = Fractal.Recurse(cube, 19_999, self => self.Apply([Samples.Move(2, 0, 0)]) + cube);
+        Assert.Throws<FractalLimitException>(() => row.Follow([0]));
+        var scene = Scene(row);
+        var view = View.Of(scene, (double)Size.Width / Size.Height) with { Camera = new(new(1, 2, -5), Vector.Zero, 90) };
+        var x = Enumerable.Range(0, Size.Width).First(x => new Picker().Pick(scene, view, (x, 100), Size) is not null);
+        var selection = new Picker().Pick(scene, view, (x, 100), Size)!;
+        Assert.Empty(FractalSelection.SetSizes(row, selection.Path));
+        Assert.False(selection.Outline.Box.IsEmpty);
+        var moved = new PlacedModel(new("f.fdo", Samples.Move(0, 1, 0)), selection.Object.Model);
+        Assert.Null(selection.ContinueIn(moved));
+        Assert.Null(FractalSelection.SubFractalAt(row, [0], 0, AffineMap.Identity));
+        Assert.Equal(BoxLines.OfLevel(scene, 0, Colour.Black), BoxLines.OfLevel(scene, 1, Colour.Black));
     }
 
     [Fact]
