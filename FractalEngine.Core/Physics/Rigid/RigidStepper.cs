@@ -561,8 +561,10 @@ internal sealed class RigidStepper(PhysicsSettings settings, List<Body> bodies, 
         // What leaves a contact too slowly for its turn is stopped at once, again and again: first it needs the gap that it lacks.
         state.IsHeld = surface.Fraction < MinFraction && !isTimeKept && !state.IsHeld;
         var travel = state.Travel - state.TravelBefore;
+        // What rests may be lifted a little against gravity, for nothing. What has turned into others, and is lifted more, pays for it.
+        var lift = (surface.Fraction * displacement).ShortenedTo(RigidPairSet.ContactDistance * surface.Radius);
         state.Work = surface.Carrier is null
-            ? Vector.Dot(state.Acceleration, travel - (surface.Fraction * displacement)) / state.InverseMass : double.PositiveInfinity;
+            ? Vector.Dot(state.Acceleration, travel - lift) / state.InverseMass : double.PositiveInfinity;
         surface.Body!.Position += travel;
         surface.Body.SetOrientation(state.Turn.After(state.Orientation));
     }
