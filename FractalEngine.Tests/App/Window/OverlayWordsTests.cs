@@ -8,7 +8,7 @@ using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
-using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Painting;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
@@ -146,7 +146,7 @@ public class OverlayWordsTests
 
     private static void AssertApart(WindowOverlay overlay, int width, int height)
     {
-        var layout = OverlayLayout.Create(GlyphAtlas.Load(), overlay.Panels, width, height);
+        var layout = OverlayLayout.Create(overlay.Panels, new(0, 0, width, height));
         var panels = layout.Quads.Where(static quad => quad.Glyph < 0).ToArray();
         Assert.Equal(overlay.Panels.Count, panels.Length);
         foreach (var panel in panels)
