@@ -395,11 +395,7 @@ public abstract class Parser(SourceText source)
     protected static bool IsAtEndOfLine(Cursor cursor) => cursor.IsAtEnd || cursor.Current is '\n' or '\r';
 
     /// <summary>Returns the start of the next line, or the end of the text.</summary>
-    protected static Cursor SkipLine(Cursor cursor)
-    {
-        var length = cursor.Rest.IndexOfAny('\n', '\r');
-        return length < 0 ? cursor.Advance(cursor.Rest.Length) : SkipLineBreak(cursor.Advance(length));
-    }
+    protected internal static Cursor SkipLine(Cursor cursor) => SkipLineBreak(cursor.Advance(cursor.RestOfLine.Length));
 
     private static string Truncate(ReadOnlySpan<char> text) => text.Length <= 40 ? text.ToString() : $"{text[..37]}...";
 
