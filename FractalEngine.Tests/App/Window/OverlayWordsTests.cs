@@ -115,7 +115,7 @@ public class OverlayWordsTests
     public void IsRunning_AtSpeedZero_IsFalse()
     {
         using var physics = new ScenePhysics(LoadedScene.Of(new() { Objects = [new SceneObject(Floor)] }), static () => { });
-        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, Camera.Default with { Position = new(0, 2, 0) }));
         Assert.True(physics.IsRunning);
         physics.Speed = 0;
         Assert.False(physics.IsRunning);
@@ -140,7 +140,7 @@ public class OverlayWordsTests
         Assert.False(physics.HasMovers);
         // What stands still needs no world, until something is asked of it.
         Assert.Null(physics.World);
-        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, Camera.Default with { Position = new(0, 2, 0) }));
         Assert.True(physics.HasMovers);
     }
 
