@@ -89,7 +89,7 @@ public class UserInterfaceTests
     public void CheckBox_ClickedAndBySpace_Switches()
     {
         var isOn = false;
-        Show(ui => ui.CheckBox("switch", ref isOn));
+        Show(ui => isOn ^= ui.CheckBox("switch", isOn));
         Click("switch");
         Assert.True(isOn);
         Assert.True(UiText.Contains(_ui, "✓"));
