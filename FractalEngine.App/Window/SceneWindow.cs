@@ -122,12 +122,7 @@ internal sealed class SceneWindow : IDisposable
 
             PollLoader();
             Advance();
-            if (_overlay.Expire(_clock.Elapsed))
-            {
-                _redraw |= Redraw.Overlay;
-            }
-
-            if (_tracing.TakeUpdate())
+            if (_overlay.Expire(_clock.Elapsed) | _tracing.TakeUpdate())
             {
                 _redraw |= Redraw.Overlay;
             }

@@ -75,4 +75,8 @@ public sealed record Material(string Name)
         Texture = null,
         Diffuse = new(MissingTextureGrey * Diffuse.Red, MissingTextureGrey * Diffuse.Green, MissingTextureGrey * Diffuse.Blue),
     };
+
+    /// <summary>Returns the material for faces without texture coordinates: its numbers, and no image.</summary>
+    public Material WithoutImages() =>
+        this with { Texture = null, OpacityTexture = null, EmissionTexture = null, BumpTexture = null, NormalTexture = null };
 }

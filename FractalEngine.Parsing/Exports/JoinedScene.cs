@@ -60,7 +60,7 @@ public sealed class JoinedScene
         var model = new MeshModel(mesh)
         {
             Materials = joined._materials.ByName.ToImmutableDictionary(
-                static pair => pair.Key, static pair => WithoutTextures(pair.Value)),
+                static pair => pair.Key, static pair => pair.Value.WithoutImages()),
         };
         return LoadedScene.Of(scene.Scene with
         {
@@ -86,15 +86,6 @@ public sealed class JoinedScene
 
         static string Edges(int count, string kind) => FormattableString.Invariant($"{count} {kind}edge{(count == 1 ? "" : "s")}");
     }
-
-    private static Material WithoutTextures(Material material) => material with
-    {
-        Texture = null,
-        OpacityTexture = null,
-        EmissionTexture = null,
-        BumpTexture = null,
-        NormalTexture = null,
-    };
 
     private void Add(ExportedPart part)
     {

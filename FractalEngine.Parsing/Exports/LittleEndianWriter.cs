@@ -27,11 +27,10 @@ internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progr
     /// <summary>Writes a triangle as a list: a byte with the number 3, and three whole numbers of 32 bits.</summary>
     public void WriteTriangle(uint a, uint b, uint c)
     {
-        var bytes = Reserve(1 + (3 * sizeof(uint)));
-        bytes[0] = 3;
-        BinaryPrimitives.WriteUInt32LittleEndian(bytes[1..], a);
-        BinaryPrimitives.WriteUInt32LittleEndian(bytes[5..], b);
-        BinaryPrimitives.WriteUInt32LittleEndian(bytes[9..], c);
+        WriteBytes([3]);
+        WriteUInt32(a);
+        WriteUInt32(b);
+        WriteUInt32(c);
     }
 
     /// <summary>Writes a whole number of 16 bits.</summary>
@@ -58,15 +57,17 @@ internal sealed class LittleEndianWriter(Stream stream, IProgress<double>? progr
             : [];
     }
 
+    /// <summary>Writes a number as a float.</summary>
+    public void WriteSingle(double number) => BinaryPrimitives.WriteSingleLittleEndian(Reserve(sizeof(float)), (float)number);
+
     /// <summary>Writes a vector as three floats.</summary>
     /// <exception cref="FractalEngineException">A coordinate is beyond the range of a float.</exception>
     public void WriteSingle(Vector vector)
     {
-        RequireSingle(vector);
-        var bytes = Reserve(3 * sizeof(float));
-        BinaryPrimitives.WriteSingleLittleEndian(bytes, (float)vector.X);
-        BinaryPrimitives.WriteSingleLittleEndian(bytes[sizeof(float)..], (float)vector.Y);
-        BinaryPrimitives.WriteSingleLittleEndian(bytes[(2 * sizeof(float))..], (float)vector.Z);
+        var (x, y, z) = RequireSingle(vector);
+        WriteSingle(x);
+        WriteSingle(y);
+        WriteSingle(z);
     }
 
     /// <summary>Writes a vector as three doubles.</summary>

@@ -55,8 +55,7 @@ public abstract class ExpressionParser : Parser
     {
         if (rest.Current == '/' && rest.Peek(1) == '/')
         {
-            var length = rest.Rest.IndexOfAny('\n', '\r');
-            rest = rest.Advance(length < 0 ? rest.Rest.Length : length);
+            rest = rest.Advance(rest.RestOfLine.Length);
         }
 
         return true;

@@ -14,10 +14,10 @@ namespace FractalEngine.Parsing.Fdo;
 /// </summary>
 public sealed class FractalParser : RecursiveParser
 {
-    private (Composition Composition, int Offset)? _composition;
+    private (Composition Value, int Offset)? _composition;
     private (DeclaredObject Object, int Offset)? _result;
     private (Gradient Gradient, int Offset)? _gradient;
-    private (Handedness Handedness, int Offset)? _handedness;
+    private (Handedness Value, int Offset)? _handedness;
     private bool _hasDeclaration;
 
     private protected override string? Explain(SyntaxFailure failure) => ExplainOutput(failure) ?? FractalMistakes.Explain(failure);
@@ -76,7 +76,7 @@ public sealed class FractalParser : RecursiveParser
 
         var steps = result.Object.Steps;
         var description = Bases.Parts.Describe(
-            result.Object.Part, steps.Take(steps.Count), _composition?.Composition ?? Composition.Affine, out var meshes);
+            result.Object.Part, steps.Take(steps.Count), _composition?.Value ?? Composition.Affine, out var meshes);
         RequirePartLimits(description, meshes.Length, result.Offset);
         if (FractalCheck.FindCompositionFault(description) is { } fault)
         {
@@ -86,7 +86,7 @@ public sealed class FractalParser : RecursiveParser
         return new(Source, description, ImmutableArray.CreateRange(meshes, mesh => Bases.References[mesh]), result.Offset)
         {
             Gradient = _gradient?.Gradient,
-            Handedness = _handedness?.Handedness,
+            Handedness = _handedness?.Value,
             NumberNames = NumberNames,
             Warnings = Hints,
         };
@@ -104,9 +104,12 @@ public sealed class FractalParser : RecursiveParser
         _hasDeclaration = true;
         return ParseVectorDeclaration(cursor, out rest)
             || ParseResult(cursor, out rest)
-            || ParseComposition(cursor, out rest)
+            || ParseSetting(
+                cursor, "composition", "composition", [(Composition.Affine, "affine"), (Composition.Componentwise, "componentwise")],
+                ref _composition, out rest)
             || ParseGradient(cursor, out rest)
-            || ParseHandedness(cursor, out rest)
+            || ParseSetting(
+                cursor, "handed", "handedness", [(Handedness.Left, "left"), (Handedness.Right, "right")], ref _handedness, out rest)
             || ParseSeed(cursor, out rest)
             || ParseValueDeclaration(cursor, out rest)
             || ParseMatrix(cursor, out rest)
@@ -115,45 +118,32 @@ public sealed class FractalParser : RecursiveParser
             || ParseObjectDeclaration(cursor, out rest);
     }
 
-    /// <summary>Parses the choice <c>composition affine</c> or <c>composition componentwise</c>.</summary>
-    private bool ParseComposition(Cursor cursor, out Cursor rest)
-    {
-        if (!ParseWord(cursor, "composition", out rest) || !ParseBlanks(rest, out var word) || word.Offset == rest.Offset
-            || !ParseCompositionName(word, out var composition, out rest))
-        {
-            return false;
-        }
-
-        RequireOnce(cursor, "composition", _composition?.Offset);
-        _composition = (composition, cursor.Offset);
-        return true;
-    }
-
     /// <summary>Parses <c>gradient level "moss"</c>, as objects of scenes have it.</summary>
     private bool ParseGradient(Cursor cursor, out Cursor rest)
     {
-        if (!ParseWord(cursor, "gradient", out rest) || !ParseBlanks(rest, out var kind) || kind.Offset == rest.Offset
-            || !char.IsLetter(kind.Current))
+        if (!ParseWordAndBlank(cursor, "gradient", out rest) || !char.IsLetter(rest.Current))
         {
             return false;
         }
 
         RequireOnce(cursor, "gradient", _gradient?.Offset);
-        _gradient = (GradientParser.ParseIn(Source, kind, out rest), cursor.Offset);
+        _gradient = (GradientParser.ParseIn(Source, rest, out rest), cursor.Offset);
         return true;
     }
 
-    /// <summary>Parses <c>handed left</c> or <c>handed right</c>, as scenes have it.</summary>
-    private bool ParseHandedness(Cursor cursor, out Cursor rest)
+    /// <summary>Parses a choice that a file makes at most once, such as <c>handed right</c>: a keyword, and one of some words.</summary>
+    private bool ParseSetting<T>(
+        Cursor cursor, string keyword, string what, ReadOnlySpan<(T Value, string Word)> choices, ref (T Value, int Offset)? chosen,
+        out Cursor rest)
+        where T : struct
     {
-        if (!ParseWord(cursor, "handed", out rest) || !ParseBlanks(rest, out var word) || word.Offset == rest.Offset
-            || !(ParseWord(word, "left", out rest) || ParseWord(word, "right", out rest)))
+        if (!ParseWordAndBlank(cursor, keyword, out rest) || !ParseChoice(rest, choices, out var value, out rest))
         {
             return false;
         }
 
-        RequireOnce(cursor, "handedness", _handedness?.Offset);
-        _handedness = (word.Current == 'l' ? Handedness.Left : Handedness.Right, cursor.Offset);
+        RequireOnce(cursor, what, chosen?.Offset);
+        chosen = (value, cursor.Offset);
         return true;
     }
 
@@ -163,18 +153,6 @@ public sealed class FractalParser : RecursiveParser
         {
             throw Error(cursor, $"the {what} is declared twice, first in line {Source.LineOf(first)}");
         }
-    }
-
-    private bool ParseCompositionName(Cursor cursor, out Composition composition, out Cursor rest)
-    {
-        composition = Composition.Affine;
-        if (ParseWord(cursor, "affine", out rest))
-        {
-            return true;
-        }
-
-        composition = Composition.Componentwise;
-        return ParseWord(cursor, "componentwise", out rest);
     }
 
     /// <summary>Parses the result of the file: <c>&lt;$&gt;. object</c>.</summary>

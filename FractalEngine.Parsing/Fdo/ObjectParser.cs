@@ -44,12 +44,8 @@ public abstract class ObjectParser : MapSetParser
     /// <summary>Parses <c>seed 7</c> or <c>seed 7 by level</c>, by which all choices below are made.</summary>
     private protected bool ParseSeed(Cursor cursor, out Cursor rest)
     {
-        if (!ParseWord(cursor, "seed", out rest) || !ParseBlanks(rest, out var start) || start.Offset == rest.Offset)
-        {
-            return false;
-        }
-
-        if (!ParseInteger(start, "a seed", out var number, out rest))
+        rest = cursor;
+        if (!ParseWordAndBlank(cursor, "seed", out var start) || !ParseInteger(start, "a seed", out var number, out rest))
         {
             return false;
         }

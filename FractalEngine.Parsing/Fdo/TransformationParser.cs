@@ -34,8 +34,8 @@ public abstract class TransformationParser : ExpressionParser
     /// <summary>Parses a vector: <c>v x y z</c>.</summary>
     private protected bool ParseVectorDeclaration(Cursor cursor, out Cursor rest)
     {
-        if (!ParseWord(cursor, "v", out rest) || !ParseBlanks(rest, out var numbers) || numbers.Offset == rest.Offset
-            || !ParseComponents(numbers, out var vector, out rest))
+        rest = cursor;
+        if (!ParseWordAndBlank(cursor, "v", out var numbers) || !ParseComponents(numbers, out var vector, out rest))
         {
             return false;
         }

@@ -1,4 +1,3 @@
-using System.Buffers.Binary;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
@@ -17,35 +16,25 @@ internal sealed class PlyBinaryValues(MeshBytes bytes, int start, bool isBigEndi
     public override double Read(PlyType type)
     {
         _valueStart = _position;
-        var size = MinSize(type);
-        if (size > RemainingBytes)
+        if (type.Size > RemainingBytes)
         {
             throw Error("the file ends here, expected a number");
         }
 
-        var value = bytes.Buffer.AsSpan(_position, size);
-        _position += size;
-        return type switch
+        Span<byte> value = stackalloc byte[sizeof(double)];
+        value = value[..type.Size];
+        bytes.Contents.Slice(_position, type.Size).CopyTo(value);
+        _position += type.Size;
+        if (isBigEndian)
         {
-            PlyType.Int8 => (sbyte)value[0],
-            PlyType.UInt8 => value[0],
-            PlyType.Int16 => isBigEndian ? BinaryPrimitives.ReadInt16BigEndian(value) : BinaryPrimitives.ReadInt16LittleEndian(value),
-            PlyType.UInt16 => isBigEndian ? BinaryPrimitives.ReadUInt16BigEndian(value) : BinaryPrimitives.ReadUInt16LittleEndian(value),
-            PlyType.Int32 => isBigEndian ? BinaryPrimitives.ReadInt32BigEndian(value) : BinaryPrimitives.ReadInt32LittleEndian(value),
-            PlyType.UInt32 => isBigEndian ? BinaryPrimitives.ReadUInt32BigEndian(value) : BinaryPrimitives.ReadUInt32LittleEndian(value),
-            PlyType.Float => isBigEndian ? BinaryPrimitives.ReadSingleBigEndian(value) : BinaryPrimitives.ReadSingleLittleEndian(value),
-            _ => isBigEndian ? BinaryPrimitives.ReadDoubleBigEndian(value) : BinaryPrimitives.ReadDoubleLittleEndian(value),
-        };
+            value.Reverse();
+        }
+
+        return type.Decode(value);
     }
 
     /// <inheritdoc/>
-    public override int MinSize(PlyType type) => type switch
-    {
-        PlyType.Int8 or PlyType.UInt8 => 1,
-        PlyType.Int16 or PlyType.UInt16 => 2,
-        PlyType.Double => 8,
-        _ => 4,
-    };
+    public override int MinSize(PlyType type) => type.Size;
 
     /// <inheritdoc/>
     public override SourceException Error(string message, bool isLimitExceeded = false) =>

@@ -100,8 +100,8 @@ internal sealed class PlyHeaderParser(MeshBytes bytes)
             throw _text.Error("no element is declared above");
         }
 
-        PlyType? countType = _text.TryReadKeyword("list") ? ParseType() : null;
-        if (countType is PlyType.Float or PlyType.Double)
+        var countType = _text.TryReadKeyword("list") ? ParseType() : null;
+        if (countType is { IsInteger: false })
         {
             throw _text.Error("the length of a list is a whole number");
         }
@@ -112,16 +112,6 @@ internal sealed class PlyHeaderParser(MeshBytes bytes)
         _properties.Add(new(name, type, countType));
     }
 
-    private PlyType ParseType() => Encoding.UTF8.GetString(_text.ReadWord("a type")) switch
-    {
-        "char" or "int8" => PlyType.Int8,
-        "uchar" or "uint8" => PlyType.UInt8,
-        "short" or "int16" => PlyType.Int16,
-        "ushort" or "uint16" => PlyType.UInt16,
-        "int" or "int32" => PlyType.Int32,
-        "uint" or "uint32" => PlyType.UInt32,
-        "float" or "float32" => PlyType.Float,
-        "double" or "float64" => PlyType.Double,
-        _ => throw _text.Unexpected("a type such as 'float' or 'uchar'"),
-    };
+    private PlyType ParseType() =>
+        PlyType.Find(Encoding.UTF8.GetString(_text.ReadWord("a type"))) ?? throw _text.Unexpected("a type such as 'float' or 'uchar'");
 }

@@ -182,7 +182,7 @@ public sealed class PlyReader
 
     private uint ReadLength(PlyProperty property)
     {
-        var length = _values.Read(property.CountType!.Value);
+        var length = _values.Read(property.CountType!);
         return length >= 0 && length <= uint.MaxValue && Math.Truncate(length).Equals(length)
             ? (uint)length
             : throw _values.Error(FormattableString.Invariant($"{length} is not the length of a list"));

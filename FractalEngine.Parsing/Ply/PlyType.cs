@@ -1,29 +1,30 @@
+using System.Buffers.Binary;
+
 namespace FractalEngine.Parsing.Ply;
 
-/// <summary>Types of numbers in PLY files.</summary>
-internal enum PlyType
+/// <summary>A type of numbers in PLY files.</summary>
+/// <param name="Name">Its older name.</param>
+/// <param name="SizedName">Its name with the number of bits.</param>
+/// <param name="Size">Number of bytes that a number takes in binary files.</param>
+/// <param name="Decode">Reads a number from bytes, the lowest first.</param>
+/// <param name="ColourUnit">Number that stands for the full component of a colour.</param>
+internal sealed record PlyType(string Name, string SizedName, int Size, Func<ReadOnlySpan<byte>, double> Decode, double ColourUnit = 1)
 {
-    /// <summary>A signed integer of one byte: <c>char</c>, <c>int8</c>.</summary>
-    Int8,
+    private static readonly PlyType[] All =
+    [
+        new("char", "int8", 1, static bytes => (sbyte)bytes[0]),
+        new("uchar", "uint8", 1, static bytes => bytes[0], byte.MaxValue),
+        new("short", "int16", 2, static bytes => BinaryPrimitives.ReadInt16LittleEndian(bytes)),
+        new("ushort", "uint16", 2, static bytes => BinaryPrimitives.ReadUInt16LittleEndian(bytes), ushort.MaxValue),
+        new("int", "int32", 4, static bytes => BinaryPrimitives.ReadInt32LittleEndian(bytes)),
+        new("uint", "uint32", 4, static bytes => BinaryPrimitives.ReadUInt32LittleEndian(bytes)),
+        new("float", "float32", 4, static bytes => BinaryPrimitives.ReadSingleLittleEndian(bytes)),
+        new("double", "float64", 8, BinaryPrimitives.ReadDoubleLittleEndian),
+    ];
 
-    /// <summary>An unsigned integer of one byte: <c>uchar</c>, <c>uint8</c>.</summary>
-    UInt8,
+    /// <summary>Whether its numbers are whole.</summary>
+    public bool IsInteger => !SizedName.StartsWith("float", StringComparison.Ordinal);
 
-    /// <summary>A signed integer of two bytes: <c>short</c>, <c>int16</c>.</summary>
-    Int16,
-
-    /// <summary>An unsigned integer of two bytes: <c>ushort</c>, <c>uint16</c>.</summary>
-    UInt16,
-
-    /// <summary>A signed integer of four bytes: <c>int</c>, <c>int32</c>.</summary>
-    Int32,
-
-    /// <summary>An unsigned integer of four bytes: <c>uint</c>, <c>uint32</c>.</summary>
-    UInt32,
-
-    /// <summary>A floating-point number of four bytes: <c>float</c>, <c>float32</c>.</summary>
-    Float,
-
-    /// <summary>A floating-point number of eight bytes: <c>double</c>, <c>float64</c>.</summary>
-    Double,
+    /// <summary>Returns the type of a name; null for none.</summary>
+    public static PlyType? Find(string name) => Array.Find(All, type => name == type.Name || name == type.SizedName);
 }

@@ -29,12 +29,7 @@ internal static class PlyVertex
     ];
 
     /// <summary>Returns the factor of a property's numbers: integers of colours count from 0 to their largest.</summary>
-    public static double FactorOf(int role, PlyType type) => role < Red ? 1 : type switch
-    {
-        PlyType.UInt8 => 1.0 / byte.MaxValue,
-        PlyType.UInt16 => 1.0 / ushort.MaxValue,
-        _ => 1,
-    };
+    public static double FactorOf(int role, PlyType type) => role < Red ? 1 : 1 / type.ColourUnit;
 
     /// <summary>Returns the role of a property by its name.</summary>
     public static int RoleOf(string name) => Array.FindIndex(Names, names => names.Contains(name));

@@ -137,24 +137,6 @@ public abstract class SceneValueParser(SourceText source) : Parser(source)
     /// <summary>Returns whether the declaration ends here. Where it does not, its end counts as expected.</summary>
     private protected bool EndsAt(Cursor cursor) => IsAtEndOfLine(cursor) || Fail(cursor, SyntaxFailure.EndOfLine);
 
-    /// <summary>Parses one of several words, each with its value.</summary>
-    private protected bool ParseChoice<T>(Cursor cursor, ReadOnlySpan<(T Value, string Word)> choices, out T value, out Cursor rest)
-        where T : struct
-    {
-        foreach (var (choice, word) in choices)
-        {
-            if (ParseWord(cursor, word, out rest))
-            {
-                value = choice;
-                return true;
-            }
-        }
-
-        value = default;
-        rest = cursor;
-        return false;
-    }
-
     /// <summary>Parses all options that follow a declaration; there may be none.</summary>
     /// <param name="cursor">Position behind the declaration.</param>
     /// <param name="declared">The declaration without options.</param>

@@ -17,6 +17,9 @@ public readonly record struct Cursor(string Text, int Offset)
     /// <summary>Text from this position to its end.</summary>
     public ReadOnlySpan<char> Rest => Text.AsSpan(Offset);
 
+    /// <summary>Text from this position to the end of its line.</summary>
+    public ReadOnlySpan<char> RestOfLine => Rest.IndexOfAny('\n', '\r') is >= 0 and var length ? Rest[..length] : Rest;
+
     /// <summary>Returns the character <paramref name="distance"/> positions ahead, or <see cref="EndOfText"/>.</summary>
     public char Peek(int distance) => (uint)(Offset + distance) < (uint)Text.Length ? Text[Offset + distance] : EndOfText;
 

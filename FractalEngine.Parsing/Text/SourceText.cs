@@ -139,9 +139,7 @@ public sealed class SourceText(string fileName, string text)
     {
         offset = Math.Min(offset, Text.Length);
         var line = FindLine(offset, out var lineStart);
-        var length = Text.AsSpan(lineStart).IndexOfAny('\n', '\r');
-        var sourceLine = length < 0 ? Text[lineStart..] : Text.Substring(lineStart, length);
-        return new(FileName, line, 1 + offset - lineStart, severity, message, sourceLine);
+        return new(FileName, line, 1 + offset - lineStart, severity, message, new Cursor(Text, lineStart).RestOfLine.ToString());
     }
 
     /// <summary>Returns the number, from 1, of the line that holds a position. Cost O(offset).</summary>

@@ -115,14 +115,7 @@ internal sealed class FaceBatches(ImmutableArray<DrawableBatch> batches, int[]? 
                     materialIndex = materials.Count;
                     materialIndices.Add((fileMaterial?.Name, hasTexture), materialIndex);
                     materials.Add(fileMaterial is null
-                        ? null
-                        : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial with
-                        {
-                            Texture = null,
-                            OpacityTexture = null,
-                            BumpTexture = null,
-                            NormalTexture = null,
-                        }));
+                        ? null : textures.GetMaterial(hasTexture ? fileMaterial : fileMaterial.WithoutImages()));
                 }
 
                 materialOfFace[face] = materialIndex;

@@ -177,8 +177,10 @@ public sealed class UserInterface
     public bool Button(string label, bool isEnabled = true) => _widgets.Button(label, isEnabled);
 
     /// <summary>Adds a check box with its label.</summary>
+    /// <param name="label">Text and identity of the box.</param>
+    /// <param name="isChecked">Whether the box is checked so far.</param>
     /// <returns>True when the box was switched.</returns>
-    public bool CheckBox(string label, ref bool isChecked) => _widgets.CheckBox(label, ref isChecked);
+    public bool CheckBox(string label, bool isChecked) => _widgets.CheckBox(label, isChecked);
 
     /// <summary>Adds a row of a list.</summary>
     /// <param name="label">Text and identity of the row.</param>

@@ -17,13 +17,9 @@ internal sealed class VisibleInstances : IDisposable
     private const int SkyAboveLocation = 8;
     private const int SkyBelowLocation = 9;
 
-    private readonly GlBuffer? _instances;
-    private readonly GlBuffer? _tints;
-    private readonly GlBuffer? _skyParts;
-    private readonly GlBuffer? _mapTints;
-    private readonly GlBuffer? _paletteColours;
-    private readonly GlBuffer? _coveredSides;
+    private readonly List<(GlBuffer Buffer, int FloatsPerInstance, ChunkReader ChunkOf)> _buffers = [];
     private readonly VertexArray _vertexArray;
+    private readonly GlBuffer? _skyParts;
     private readonly float[] _map = [];
     private int _instanceCount;
 
@@ -48,42 +44,37 @@ internal sealed class VisibleInstances : IDisposable
             return;
         }
 
-        _instances = new(resources, $"visible instances of {name}", BufferTarget.ArrayBuffer);
         _vertexArray = new(resources, $"visible instances of {name}");
-        model.Attach(_vertexArray, _instances);
-        if (hasTints)
-        {
-            _tints = new(resources, $"tints of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_tints, TintLocation, 1, 1, 0, divisor: 1);
-        }
-
-        if (hasMapTints)
-        {
-            _mapTints = new(resources, $"colours of maps of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_mapTints, ModelBuffers.MapTintLocation, 4, 4, 0, divisor: 1);
-        }
-
-        if (hasPalette)
-        {
-            _paletteColours = new(resources, $"palette colours of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_paletteColours, PaletteColourLocation, 4, 4, 0, divisor: 1);
-        }
-
-        if (hasCoveredSides)
-        {
-            _coveredSides = new(resources, $"covered sides of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_coveredSides, CoveredSidesLocation, 1, 1, 0, divisor: 1);
-        }
-
-        if (hasSkyParts)
-        {
-            _skyParts = new(resources, $"sky of {name}", BufferTarget.ArrayBuffer);
-            _vertexArray.Attribute(_skyParts, SkyAboveLocation, 3, 6, 0, divisor: 1);
-            _vertexArray.Attribute(_skyParts, SkyBelowLocation, 3, 6, 3, divisor: 1);
-        }
-
+        model.Attach(
+            _vertexArray, Add("visible instances", VisibleSet.FloatsPerInstance, static (set, i, chunk) => set.Instances(i, chunk)));
+        AddIf(hasTints, "tints", 1, static (set, i, chunk) => set.GradientFactors(i, chunk), TintLocation);
+        AddIf(hasMapTints, "colours of maps", 4, static (set, i, chunk) => set.Tints(i, chunk), ModelBuffers.MapTintLocation);
+        AddIf(hasPalette, "palette colours", 4, static (set, i, chunk) => set.PaletteColours(i, chunk), PaletteColourLocation);
+        AddIf(hasCoveredSides, "covered sides", 1, static (set, i, chunk) => set.CoveredSides(i, chunk), CoveredSidesLocation);
+        _skyParts = AddIf(hasSkyParts, "sky", 6, static (set, i, chunk) => set.SkyParts(i, chunk), SkyAboveLocation, SkyBelowLocation);
         _vertexArray.Unbind();
+
+        GlBuffer Add(string contents, int floatsPerInstance, ChunkReader chunkOf)
+        {
+            var buffer = new GlBuffer(resources, $"{contents} of {name}", BufferTarget.ArrayBuffer);
+            _buffers.Add((buffer, floatsPerInstance, chunkOf));
+            return buffer;
+        }
+
+        GlBuffer? AddIf(bool isThere, string contents, int floatsPerInstance, ChunkReader chunkOf, params ReadOnlySpan<int> locations)
+        {
+            var buffer = isThere ? Add(contents, floatsPerInstance, chunkOf) : null;
+            var components = floatsPerInstance / locations.Length;
+            for (var i = 0; i < locations.Length && buffer is not null; i++)
+            {
+                _vertexArray.Attribute(buffer, locations[i], components, floatsPerInstance, i * components, divisor: 1);
+            }
+
+            return buffer;
+        }
     }
+
+    private delegate ReadOnlySpan<float> ChunkReader(VisibleSet visible, int objectIndex, int chunk);
 
     /// <summary>Bytes that were uploaded so far.</summary>
     public long UploadedBytes { get; private set; }
@@ -95,40 +86,19 @@ internal sealed class VisibleInstances : IDisposable
     public void Upload(VisibleSet visible, int objectIndex, bool hasSkyParts)
     {
         _instanceCount = visible.InstanceCountOf(objectIndex);
-        if (_instances is null)
+        if (_map.Length > 0)
         {
             CopyMap(visible, objectIndex);
             return;
         }
 
-        Upload(_instances, VisibleSet.FloatsPerInstance, static (set, index, chunk) => set.Instances(index, chunk));
-        if (_tints is not null)
+        foreach (var (buffer, floatsPerInstance, chunkOf) in _buffers)
         {
-            Upload(_tints, 1, static (set, index, chunk) => set.GradientFactors(index, chunk));
-        }
+            if (buffer == _skyParts && !hasSkyParts)
+            {
+                continue;
+            }
 
-        if (_mapTints is not null)
-        {
-            Upload(_mapTints, 4, static (set, index, chunk) => set.Tints(index, chunk));
-        }
-
-        if (_paletteColours is not null)
-        {
-            Upload(_paletteColours, 4, static (set, index, chunk) => set.PaletteColours(index, chunk));
-        }
-
-        if (_coveredSides is not null)
-        {
-            Upload(_coveredSides, 1, static (set, index, chunk) => set.CoveredSides(index, chunk));
-        }
-
-        if (_skyParts is not null && hasSkyParts)
-        {
-            Upload(_skyParts, 6, static (set, index, chunk) => set.SkyParts(index, chunk));
-        }
-
-        void Upload(GlBuffer buffer, int floatsPerInstance, Func<VisibleSet, int, int, ReadOnlySpan<float>> chunkOf)
-        {
             buffer.Discard((long)_instanceCount * floatsPerInstance * sizeof(float));
             var offset = 0L;
             for (var chunk = 0; chunk < VisibleSet.ChunkCount; chunk++)
@@ -152,8 +122,8 @@ internal sealed class VisibleInstances : IDisposable
     }
 
     /// <inheritdoc/>
-    public void Dispose() => GlObject.DisposeAll(
-        _instances is null ? null : _vertexArray, _tints, _mapTints, _paletteColours, _coveredSides, _skyParts, _instances);
+    public void Dispose() =>
+        GlObject.DisposeAll([_map.Length > 0 ? null : _vertexArray, .. _buffers.Select(static one => one.Buffer)]);
 
     private void CopyMap(VisibleSet visible, int objectIndex)
     {

@@ -84,6 +84,9 @@ public sealed record View(Camera Camera, Projection Projection)
     /// <summary>Half of the visible height, scene units: at depth 1 in perspective, at any depth in orthographic projection.</summary>
     internal double HalfHeight => Projection == Projection.Perspective ? Camera.HalfHeightAtUnitDepth : 0.5 * OrthographicHeight;
 
+    /// <summary>Returns half the height that the frame shows at a depth, scene units.</summary>
+    public double HalfHeightAt(double depth) => Projection == Projection.Perspective ? depth * HalfHeight : HalfHeight;
+
     /// <summary>
     /// Whether surfaces out of focus are blurred: by a lens, in perspective. Within a deep zoom, scene units are no measure for what is
     /// seen, so that everything is sharp.
@@ -162,7 +165,7 @@ public sealed record View(Camera Camera, Projection Projection)
         }
 
         var viewport = Viewport(width, height);
-        var halfHeight = Projection == Projection.Perspective ? depth * HalfHeight : HalfHeight;
+        var halfHeight = HalfHeightAt(depth);
         var aspect = EffectiveAspect(width, height);
         return (
             viewport.X + (0.5 * viewport.Width * (1 + (right / (halfHeight * aspect)))),

@@ -255,9 +255,8 @@ internal sealed class FractalPanel(WindowActions actions)
     private void BuildSlider(
         UserInterface ui, int index, string label, double minimum, double maximum, double step) => ui.Scope(index, () =>
     {
-        var value = _numbers[index].Value;
         var isBounded = _numbers[index].Role == FractalNumberRole.Argument;
-        if (!ui.Slider(label, ref value, minimum, maximum, step, isBounded))
+        if (ui.Slider(label, _numbers[index].Value, minimum, maximum, step, isBounded) is not { } value)
         {
             return;
         }

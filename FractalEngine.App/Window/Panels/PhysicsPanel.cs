@@ -12,15 +12,13 @@ internal sealed class PhysicsPanel(WindowActions actions)
     {
         ui.Actions(actions, 2, "pause", "step", "drop-ball", "throw-ball", "reset-bodies", "walk");
         ui.Actions(actions, 1, "shrinking", "closest-points", "next-collider");
-        var speed = document.Physics.Speed;
-        if (ui.Slider("speed", ref speed, 0, 4, 0.05))
+        if (ui.Slider("speed", document.Physics.Speed, 0, 4, 0.05) is { } speed)
         {
             document.Physics.Speed = speed;
         }
 
         ui.Tooltip("seconds of the simulation, and of the film, in a second");
-        var time = document.Film?.Time ?? 0;
-        if (document.Film is { Duration: var duration } && ui.Slider("film", ref time, 0, duration, 0.05))
+        if (document.Film is { } film && ui.Slider("film", film.Time, 0, film.Duration, 0.05) is { } time)
         {
             document.SeekFilm(time, ui.Interaction);
             actions.RequestDraw();

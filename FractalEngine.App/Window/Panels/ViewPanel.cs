@@ -29,9 +29,8 @@ internal sealed class ViewPanel(WindowActions actions)
         BuildDetail(ui);
         if (actions.Document is { } shown)
         {
-            double level = shown.Tool.BoxLevel;
             ui.Row(1);
-            if (ui.Slider("level boxes", ref level, -1, 8, 1))
+            if (ui.Slider("level boxes", shown.Tool.BoxLevel, -1, 8, 1) is { } level)
             {
                 shown.Tool.BoxLevel = (int)level;
                 actions.RequestDraw();
@@ -47,8 +46,7 @@ internal sealed class ViewPanel(WindowActions actions)
     private void BuildCamera(UserInterface ui, Document document)
     {
         ui.Row(1);
-        var fieldOfView = document.FlyingCamera.Camera.FieldOfView;
-        if (ui.Slider("field of view", ref fieldOfView, 10, 120, 0.5) && fieldOfView is > 0 and < 180)
+        if (ui.Slider("field of view", document.FlyingCamera.Camera.FieldOfView, 10, 120, 0.5) is { } fieldOfView and > 0 and < 180)
         {
             document.MoveCamera((camera, _) => camera.SetFieldOfView(fieldOfView), 1, ui.Interaction);
             actions.RequestDraw();
@@ -71,8 +69,8 @@ internal sealed class ViewPanel(WindowActions actions)
     private void BuildDetail(UserInterface ui)
     {
         ui.Row(1);
-        var detail = actions.Settings.Culling?.MinProjectedSize ?? 0;
-        if (ui.Slider("detail", ref detail, 0.5, 20, 0.1) && actions.Settings.Culling is { } culling)
+        var culling = actions.Settings.Culling;
+        if (ui.Slider("detail", culling?.MinProjectedSize ?? 0, 0.5, 20, 0.1) is { } detail && culling is not null)
         {
             actions.Settings = actions.Settings with { Culling = culling with { MinProjectedSize = Math.Max(0.1, detail) } };
             actions.RequestDraw();

@@ -39,12 +39,6 @@ internal static class PhysicsCommands
         return "bodies reset";
     });
 
-    public static string DropSphere(this ScenePhysics physics, Camera camera) =>
-        physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, camera));
-
-    public static string ThrowSphere(this ScenePhysics physics, Camera camera) =>
-        physics.WhenReady(world => BodySpawner.ThrowSphere(world, physics.SceneExtent, camera));
-
     /// <summary>Lets the player walk, or the camera fly.</summary>
     /// <param name="physics">The physics of the scene.</param>
     /// <param name="camera">The place of a new player where the scene has none.</param>

@@ -4,6 +4,7 @@ using FractalEngine.App.Window.Tools;
 using FractalEngine.Core.DeepZoom;
 using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Maths;
+using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Parsing.Assets;
@@ -251,13 +252,15 @@ internal sealed class Document : IDisposable
 
     /// <summary>Drops a ball where the camera looks.</summary>
     /// <returns>A message for the user.</returns>
-    public string DropBall() =>
-        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.DropSphere(Camera);
+    public string DropBall() => AddBall(BodySpawner.DropSphere);
 
     /// <summary>Throws a ball from the camera.</summary>
     /// <returns>A message for the user.</returns>
-    public string ThrowBall() =>
-        VisibleDepth > 0 ? "a ball is too large for this depth: zoom out first" : Physics.ThrowSphere(Camera);
+    public string ThrowBall() => AddBall(BodySpawner.ThrowSphere);
+
+    private string AddBall(Func<PhysicsWorld, double, Camera, string> add) => VisibleDepth > 0
+        ? "a ball is too large for this depth: zoom out first"
+        : Physics.WhenReady(world => add(world, Physics.SceneExtent, Camera));
 
     public void ReleaseKeys()
     {

@@ -33,8 +33,7 @@ internal static class HandleLines
             return;
         }
 
-        var frameHeight = 2 * (view.Projection == Projection.Perspective
-            ? depth * view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight);
+        var frameHeight = 2 * view.HalfHeightAt(depth);
         for (var axis = 0; axis < 3; axis++)
         {
             var colour = LineColour(Looks[axis].Colour);

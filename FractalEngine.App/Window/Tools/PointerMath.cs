@@ -23,13 +23,8 @@ internal readonly struct PointerMath(View view, int width, int height)
     public (double X, double Y)? Project(Vector point) => view.Project(point, width, height) is var (x, y, _) ? (x, y) : null;
 
     /// <summary>Length of a line across the view at a point that is as long in the frame as so many pixels.</summary>
-    public double LengthOf(double pixels, Vector point)
-    {
-        var depth = view.Camera.ToCameraSpace(point).Z;
-        var halfHeight = view.Projection == Core.Scenes.Cameras.Projection.Perspective
-            ? depth * view.Camera.HalfHeightAtUnitDepth : 0.5 * view.OrthographicHeight;
-        return pixels * 2 * halfHeight / FrameHeight;
-    }
+    public double LengthOf(double pixels, Vector point) =>
+        pixels * 2 * view.HalfHeightAt(view.Camera.ToCameraSpace(point).Z) / FrameHeight;
 
     /// <summary>Direction in which the camera looks, of length 1.</summary>
     public Vector Forward => view.Camera.LocalAxes.V3;

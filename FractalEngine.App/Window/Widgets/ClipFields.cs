@@ -17,14 +17,13 @@ internal sealed class ClipFields(WindowActions actions)
         }
 
         var clip = document.File.Scene.Scene.Clip;
-        var isFixed = clip is not null;
         ui.Row(1);
-        if (ui.CheckBox("Fixed clip planes", ref isFixed))
+        if (ui.CheckBox("Fixed clip planes", clip is not null))
         {
             var planes = document.LatestView is { } view
                 ? document.Renderer.ClipPlanes(view, ui.Width, ui.Height, actions.Settings)
                 : (0.1, 1000);
-            (double Near, double Far)? rounded = isFixed ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null;
+            (double Near, double Far)? rounded = clip is null ? (Math.Round(planes.Near, 6), Math.Round(planes.Far, 6)) : null;
             actions.ChangeScene(scene => scene with { Clip = rounded });
         }
 

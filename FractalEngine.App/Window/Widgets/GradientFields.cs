@@ -76,10 +76,9 @@ internal sealed class GradientFields(WindowActions actions)
     private static void BuildRange(UserInterface ui, string name, GradientRange? range, double maximum, Action<GradientRange?> change)
     {
         ui.Row(6, 5, 5);
-        var isOn = range is not null;
-        if (ui.CheckBox(name, ref isOn))
+        if (ui.CheckBox(name, range is not null))
         {
-            change(isOn ? new(0, 1) : null);
+            change(range is null ? new(0, 1) : null);
         }
 
         if (range is var (first, last))

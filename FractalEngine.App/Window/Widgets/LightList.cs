@@ -83,8 +83,7 @@ internal sealed class LightList(WindowActions actions)
     private void BuildLight(UserInterface ui, Light light, int index)
     {
         ui.Row(1);
-        var intensity = light.Intensity;
-        if (ui.Slider("intensity", ref intensity, 0, 2, 0.01, isBounded: false) && intensity is >= 0 and <= 1e9)
+        if (ui.Slider("intensity", light.Intensity, 0, 2, 0.01, isBounded: false) is { } intensity and >= 0 and <= 1e9)
         {
             actions.ChangeLight(index, present => present with { Intensity = intensity });
         }

@@ -16,8 +16,7 @@ internal static class PanelWidgets
         var isAvailable = action.IsAvailable(actions);
         if (action.IsOn is { } isOn && isAvailable)
         {
-            var isChecked = isOn(actions);
-            if (ui.CheckBox(action.Name, ref isChecked))
+            if (ui.CheckBox(action.Name, isOn(actions)))
             {
                 actions.Choose(action);
             }
@@ -63,6 +62,12 @@ internal static class PanelWidgets
             ui.Value(value);
         }
     }
+
+    /// <summary>Adds a slider for a number that is kept elsewhere.</summary>
+    /// <returns>The changed number; null where it stays.</returns>
+    public static double? Slider(
+        this UserInterface ui, string label, double value, double minimum, double maximum, double step = 0, bool isBounded = true) =>
+        ui.Slider(label, ref value, minimum, maximum, step, isBounded) ? value : null;
 
     /// <summary>Adds three sliders for the components of a vector.</summary>
     /// <param name="ui">The interface that is being built.</param>

@@ -54,8 +54,7 @@ internal sealed class SectionFields(WindowActions actions)
     {
         var reach = 0.5 * document.File.Scene.Bounds.FiniteDiagonalOr(1);
         ui.Row(1);
-        var distance = plane.Distance;
-        if (ui.Slider("distance", ref distance, _start.Distance - reach, _start.Distance + reach, isBounded: false))
+        if (ui.Slider("distance", plane.Distance, _start.Distance - reach, _start.Distance + reach, isBounded: false) is { } distance)
         {
             plane = plane with { Distance = distance };
         }

@@ -25,13 +25,12 @@ internal sealed class SkyFields(WindowActions actions)
         }
 
         ui.Row(1);
-        var hasSky = scene.Sky is not null;
-        if (ui.CheckBox("sky", ref hasSky))
+        if (ui.CheckBox("sky", scene.Sky is not null))
         {
             var path = actions.Document!.File.Path;
             var added = _removed is var (owner, removed) && owner == path ? removed : new ColourSky(DefaultZenith, DefaultHorizon);
             _removed = scene.Sky is { } present ? (path, present) : _removed;
-            actions.ChangeScene(present => present with { Sky = hasSky ? added : null });
+            actions.ChangeScene(present => present with { Sky = scene.Sky is null ? added : null });
         }
 
         ui.Tooltip("light from all around; a background hides the sky itself");
@@ -47,17 +46,15 @@ internal sealed class SkyFields(WindowActions actions)
         }
 
         ui.Row(1);
-        var exposure = scene.Exposure;
-        if (ui.Slider("exposure", ref exposure, 0.1, 4, 0.05, isBounded: false) && exposure is >= 1e-9 and <= 1e9)
+        if (ui.Slider("exposure", scene.Exposure, 0.1, 4, 0.05, isBounded: false) is { } exposure and >= 1e-9 and <= 1e9)
         {
             actions.ChangeScene(present => present with { Exposure = exposure });
         }
 
         ui.Tooltip("multiplies all light before it is shown");
-        var isFilmic = scene.Tone == Tone.Filmic;
-        if (ui.CheckBox("filmic tone", ref isFilmic))
+        if (ui.CheckBox("filmic tone", scene.Tone == Tone.Filmic))
         {
-            actions.ChangeScene(present => present with { Tone = isFilmic ? Tone.Filmic : Tone.None });
+            actions.ChangeScene(present => present with { Tone = scene.Tone == Tone.Filmic ? Tone.None : Tone.Filmic });
         }
 
         BuildFog(ui, scene);
@@ -65,21 +62,20 @@ internal sealed class SkyFields(WindowActions actions)
 
     private void BuildFog(UserInterface ui, Scene scene)
     {
-        var density = scene.Fog?.Density ?? 0;
         var size = actions.Document!.File.Scene.Bounds.FiniteDiagonalOr(1);
         ui.Row(1);
-        if (ui.Slider("haze", ref density, 0, 3 / size, 0, isBounded: false) && density is >= 0 and < 1e6)
+        if (ui.Slider("haze", scene.Fog?.Density ?? 0, 0, 3 / size, 0, isBounded: false) is { } density and >= 0 and < 1e6)
         {
             actions.ChangeScene(present => present with { Fog = density > 0 ? (present.Fog ?? new(0)) with { Density = density } : null });
         }
 
         ui.Tooltip("density of the haze: after d units, exp(-density * d) of the light is left");
-        if (scene.Fog is not { Albedo: var albedo })
+        if (scene.Fog is null)
         {
             return;
         }
 
-        if (ui.Slider("lit haze", ref albedo, 0, 1, 0.05))
+        if (ui.Slider("lit haze", scene.Fog.Albedo, 0, 1, 0.05) is { } albedo)
         {
             actions.ChangeScene(present => present with { Fog = present.Fog is { } fog ? fog with { Albedo = albedo } : null });
         }

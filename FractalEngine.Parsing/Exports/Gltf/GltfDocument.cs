@@ -105,7 +105,6 @@ internal sealed class GltfDocument
         }
     });
 
-    /// <summary>Writes a number as a float.</summary>
     /// <summary>The sixteen numbers of a map, by columns.</summary>
     /// <exception cref="Core.FractalEngineException">One of them is beyond the range of a float.</exception>
     public static JsonArray MatrixOf(AffineMap map) =>
@@ -116,9 +115,6 @@ internal sealed class GltfDocument
             return new JsonNode[] { x, y, z, index == 3 ? 1 : 0 };
         }),
     ];
-
-    public static void WriteFloat(LittleEndianWriter writer, double number) =>
-        writer.WriteUInt32(BitConverter.SingleToUInt32Bits((float)number));
 
     /// <summary>Writes the JSON, and then all numbers and images.</summary>
     /// <param name="stream">Receives the file.</param>

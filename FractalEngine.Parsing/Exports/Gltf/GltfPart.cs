@@ -118,8 +118,8 @@ internal sealed class GltfPart
                 foreach (var instance in maps)
                 {
                     var turn = RotationOf(instance.Map.Linear);
-                    writer.WriteSingle(new(turn.X, turn.Y, turn.Z));
-                    GltfDocument.WriteFloat(writer, turn.W);
+                    writer.WriteSingle(new Vector(turn.X, turn.Y, turn.Z));
+                    writer.WriteSingle(turn.W);
                 }
             }),
             ["SCALE"] = AddVectors(maps, count, static instance => ScaleOf(instance.Map.Linear)),
@@ -247,8 +247,8 @@ internal sealed class GltfPart
             return;
         }
 
-        GltfDocument.WriteFloat(writer, vector.X);
-        GltfDocument.WriteFloat(writer, vector.Y);
+        writer.WriteSingle(vector.X);
+        writer.WriteSingle(vector.Y);
     }
 
     private Kind KindOf(Matrix linear)

@@ -1,5 +1,6 @@
 using System.Collections.Immutable;
 using FractalEngine.Parsing.Text;
+using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo.Merging;
 
@@ -97,8 +98,7 @@ public static class SceneMerge
         var lines = new List<string>();
         for (var start = 0; start < text.Length;)
         {
-            var length = text.AsSpan(start).IndexOfAny('\n', '\r');
-            var end = length < 0 ? text.Length : start + length + (text.AsSpan(start + length).StartsWith("\r\n") ? 2 : 1);
+            var end = Parser.SkipLine(new(text, start)).Offset;
             lines.Add(text[start..end]);
             start = end;
         }

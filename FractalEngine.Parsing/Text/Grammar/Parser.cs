@@ -149,6 +149,31 @@ public abstract class Parser(SourceText source)
         return true;
     }
 
+    /// <summary>Parses a given word and at least one blank behind it.</summary>
+    private protected bool ParseWordAndBlank(Cursor cursor, string word, out Cursor rest)
+    {
+        rest = cursor;
+        return ParseWord(cursor, word, out var end) && ParseBlanks(end, out rest) && rest.Offset > end.Offset;
+    }
+
+    /// <summary>Parses one of several words, each with its value.</summary>
+    private protected bool ParseChoice<T>(Cursor cursor, ReadOnlySpan<(T Value, string Word)> choices, out T value, out Cursor rest)
+        where T : struct
+    {
+        foreach (var (choice, word) in choices)
+        {
+            if (ParseWord(cursor, word, out rest))
+            {
+                value = choice;
+                return true;
+            }
+        }
+
+        value = default;
+        rest = cursor;
+        return false;
+    }
+
     /// <summary>Tells whether a name begins here.</summary>
     private protected static bool BeginsName(Cursor cursor) => char.IsLetter(cursor.Current) || cursor.Current == '_';
 
@@ -370,11 +395,7 @@ public abstract class Parser(SourceText source)
     protected static bool IsAtEndOfLine(Cursor cursor) => cursor.IsAtEnd || cursor.Current is '\n' or '\r';
 
     /// <summary>Returns the start of the next line, or the end of the text.</summary>
-    protected static Cursor SkipLine(Cursor cursor)
-    {
-        var length = cursor.Rest.IndexOfAny('\n', '\r');
-        return length < 0 ? cursor.Advance(cursor.Rest.Length) : SkipLineBreak(cursor.Advance(length));
-    }
+    protected internal static Cursor SkipLine(Cursor cursor) => SkipLineBreak(cursor.Advance(cursor.RestOfLine.Length));
 
     private static string Truncate(ReadOnlySpan<char> text) => text.Length <= 40 ? text.ToString() : $"{text[..37]}...";
 

@@ -1,6 +1,5 @@
 using FractalEngine.Core;
 using FractalEngine.Core.Geometry;
-using FractalEngine.Core.Maths;
 using FractalEngine.Parsing.Meshes;
 using FractalEngine.Parsing.Text;
 
@@ -43,7 +42,7 @@ public static class ObjMeshWriter
 
         for (var i = 0; i < mesh.Normals.Length; i += 3)
         {
-            text.WriteVector("vn", new Vector(mesh.Normals[i], mesh.Normals[i + 1], mesh.Normals[i + 2]));
+            text.WriteNumbers("vn", mesh.Normals.AsSpan(i, 3));
         }
 
         WriteFaces(mesh, text, objectName);

@@ -122,7 +122,8 @@ public sealed class ObjSceneWriter
         for (var i = 0; i < mesh.Normals.Length; i += 3)
         {
             var normal = cofactors * new Vector(mesh.Normals[i], mesh.Normals[i + 1], mesh.Normals[i + 2]);
-            _text.WriteVector("vn", normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero);
+            var (x, y, z) = normal.MaxAbsComponent() is > 0 and < double.PositiveInfinity ? normal.UnitVector() : Vector.Zero;
+            _text.WriteNumbers("vn", x, y, z);
         }
     }
 }

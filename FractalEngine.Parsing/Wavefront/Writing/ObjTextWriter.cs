@@ -1,4 +1,4 @@
-using System.Buffers.Text;
+using System.Globalization;
 using System.Text;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
@@ -30,13 +30,15 @@ internal sealed class ObjTextWriter(Stream stream)
         _bufferedBytes += Encoding.UTF8.GetBytes(text, _buffer.AsSpan(_bufferedBytes));
     }
 
-    /// <summary>Writes a statement of three numbers on a line of its own.</summary>
-    public void WriteVector(string keyword, Vector vector)
+    /// <summary>Writes a statement of numbers on a line of its own.</summary>
+    public void WriteNumbers(string keyword, params ReadOnlySpan<double> numbers)
     {
         WriteText(keyword);
-        WriteNumber(vector.X);
-        WriteNumber(vector.Y);
-        WriteNumber(vector.Z);
+        foreach (var number in numbers)
+        {
+            Write(' ', number);
+        }
+
         WriteText("\n");
     }
 
@@ -46,16 +48,10 @@ internal sealed class ObjTextWriter(Stream stream)
     /// <param name="vertex">Index of the vertex in the mesh, from 0.</param>
     public void WriteVertex(Vector position, Mesh mesh, int vertex)
     {
-        WriteText("v");
-        WriteNumber(position.X);
-        WriteNumber(position.Y);
-        WriteNumber(position.Z);
-        foreach (var component in mesh.Colours.IsEmpty ? [] : mesh.Colours.AsSpan(3 * vertex, 3))
-        {
-            WriteNumber(component);
-        }
-
-        WriteText("\n");
+        Span<double> numbers = [position.X, position.Y, position.Z, 0, 0, 0];
+        var colour = mesh.Colours.IsEmpty ? [] : mesh.Colours.AsSpan(3 * vertex, 3);
+        colour.CopyTo(numbers[3..]);
+        WriteNumbers("v", numbers[..(3 + colour.Length)]);
     }
 
     /// <summary>Writes texture coordinates (u, v), [n × 2], one pair per line.</summary>
@@ -63,10 +59,7 @@ internal sealed class ObjTextWriter(Stream stream)
     {
         for (var i = 0; i < coordinates.Length; i += 2)
         {
-            WriteText("vt");
-            WriteNumber(coordinates[i]);
-            WriteNumber(coordinates[i + 1]);
-            WriteText("\n");
+            WriteNumbers("vt", coordinates.Slice(i, 2));
         }
     }
 
@@ -103,32 +96,25 @@ internal sealed class ObjTextWriter(Stream stream)
     {
         var textureIndex = mesh.TextureIndices.IsEmpty ? PolygonCorner.None : mesh.TextureIndices[corner];
         var normalIndex = mesh.NormalIndices.IsEmpty ? PolygonCorner.None : mesh.NormalIndices[corner];
-        WriteInteger(' ', before.Positions + mesh.VertexIndices[corner] + 1);
+        Write(' ', before.Positions + mesh.VertexIndices[corner] + 1);
         if (textureIndex != PolygonCorner.None)
         {
-            WriteInteger('/', before.TextureCoordinates + textureIndex + 1);
+            Write('/', before.TextureCoordinates + textureIndex + 1);
         }
 
         if (normalIndex != PolygonCorner.None)
         {
             WriteText(textureIndex != PolygonCorner.None ? "" : "/");
-            WriteInteger('/', before.Normals + normalIndex + 1);
+            Write('/', before.Normals + normalIndex + 1);
         }
     }
 
-    private void WriteNumber(double number)
-    {
-        EnsureBufferSpace();
-        _buffer[_bufferedBytes++] = (byte)' ';
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
-        _bufferedBytes += length;
-    }
-
-    private void WriteInteger(char prefix, long number)
+    private void Write<T>(char prefix, T number)
+        where T : IUtf8SpanFormattable
     {
         EnsureBufferSpace();
         _buffer[_bufferedBytes++] = (byte)prefix;
-        Utf8Formatter.TryFormat(number, _buffer.AsSpan(_bufferedBytes), out var length);
+        number.TryFormat(_buffer.AsSpan(_bufferedBytes), out var length, "", CultureInfo.InvariantCulture);
         _bufferedBytes += length;
     }
 

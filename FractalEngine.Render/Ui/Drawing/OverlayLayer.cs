@@ -1,5 +1,6 @@
 using FractalEngine.Render.Gl;
 using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Painting;
 
 namespace FractalEngine.Render.Ui.Drawing;
 
@@ -39,11 +40,9 @@ internal sealed class OverlayLayer(GlResources resources) : IDisposable
         if (_lastKey is not { } last || (last.Area, last.LineHeight, last.Width, last.Height) != (area, lineHeight, width, height)
             || !last.Panels.SequenceEqual(panels))
         {
-            var layout = OverlayLayout.Create(GlyphAtlas.Shared, panels, area.Width, area.Height, lineHeight);
-            var quads = layout.Quads.ConvertAll(quad => quad with { X = quad.X + area.X, Y = quad.Y + area.Y });
-            _answers = [.. layout.Answers.Select(
-                item => (item.Area with { X = item.Area.X + area.X, Y = item.Area.Y + area.Y }, item.Answer))];
-            _batch.Upload(quads, GlyphAtlas.Shared.Sheets[layout.SheetIndex], width, height);
+            var layout = OverlayLayout.Create(panels, area, lineHeight);
+            _answers = [.. layout.Answers];
+            _batch.Upload(layout.Quads, GlyphAtlas.Shared.Sheets[layout.SheetIndex], width, height);
             _lastKey = ([.. panels], area, lineHeight, width, height);
         }
 

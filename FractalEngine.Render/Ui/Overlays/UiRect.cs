@@ -7,6 +7,9 @@ namespace FractalEngine.Render.Ui.Overlays;
 /// <param name="Height">Height in pixels.</param>
 public readonly record struct UiRect(int X, int Y, int Width, int Height)
 {
+    /// <summary>A rectangle around all frames.</summary>
+    internal static UiRect Everything => new(-(1 << 29), -(1 << 29), 1 << 30, 1 << 30);
+
     /// <summary>The edge behind the last column.</summary>
     public int Right => X + Width;
 

@@ -27,7 +27,7 @@ internal sealed class UiPainter
     }
 
     /// <summary>Sheet that the glyphs are taken from.</summary>
-    public GlyphSheet Sheet { get; private set; } = GlyphAtlas.Shared.Sheets[0];
+    public GlyphSheet Sheet { get; set; } = GlyphAtlas.Shared.Sheets[0];
 
     /// <summary>The whole frame, from its upper left corner at 0.</summary>
     public UiRect Bounds { get; set; }
@@ -66,13 +66,14 @@ internal sealed class UiPainter
     /// <summary>Returns what was painted, in drawing order.</summary>
     public List<OverlayQuad> ToQuads() => [.. _layers.SelectMany(static layer => layer)];
 
-    public void Fill(UiRect rect, Colour colour, float radius = SquareCorner)
+    public void Fill(UiRect rect, Colour colour, float radius = SquareCorner, double opacity = 1)
     {
         var visible = rect.Intersect(Clip);
         if (visible is { Width: > 0, Height: > 0 })
         {
             var corner = visible == rect ? radius : SquareCorner;
-            _layers[_layer].Add(new(visible.X, visible.Y, visible.Width, visible.Height, OverlayQuad.Tint(colour), -1, corner));
+            var tint = OverlayQuad.Tint(colour) with { Alpha = (float)opacity };
+            _layers[_layer].Add(new(visible.X, visible.Y, visible.Width, visible.Height, tint, -1, corner));
         }
     }
 

@@ -61,7 +61,7 @@ internal sealed class UiWidgets(UiInput input, UiPainter painter, UiLayout layou
         return touch.IsActivated;
     }
 
-    public bool CheckBox(string label, ref bool isChecked)
+    public bool CheckBox(string label, bool isChecked)
     {
         var rect = layout.Next();
         var touch = targets.Touch(label, rect);

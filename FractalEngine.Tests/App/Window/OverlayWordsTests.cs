@@ -8,7 +8,7 @@ using FractalEngine.Core.Physics;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Views;
-using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Painting;
 using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Window;
@@ -115,7 +115,7 @@ public class OverlayWordsTests
     public void IsRunning_AtSpeedZero_IsFalse()
     {
         using var physics = new ScenePhysics(LoadedScene.Of(new() { Objects = [new SceneObject(Floor)] }), static () => { });
-        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, Camera.Default with { Position = new(0, 2, 0) }));
         Assert.True(physics.IsRunning);
         physics.Speed = 0;
         Assert.False(physics.IsRunning);
@@ -140,13 +140,13 @@ public class OverlayWordsTests
         Assert.False(physics.HasMovers);
         // What stands still needs no world, until something is asked of it.
         Assert.Null(physics.World);
-        physics.DropSphere(Camera.Default with { Position = new(0, 2, 0) });
+        physics.WhenReady(world => BodySpawner.DropSphere(world, physics.SceneExtent, Camera.Default with { Position = new(0, 2, 0) }));
         Assert.True(physics.HasMovers);
     }
 
     private static void AssertApart(WindowOverlay overlay, int width, int height)
     {
-        var layout = OverlayLayout.Create(GlyphAtlas.Load(), overlay.Panels, width, height);
+        var layout = OverlayLayout.Create(overlay.Panels, new(0, 0, width, height));
         var panels = layout.Quads.Where(static quad => quad.Glyph < 0).ToArray();
         Assert.Equal(overlay.Panels.Count, panels.Length);
         foreach (var panel in panels)

@@ -2,6 +2,7 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Render;
 using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Painting;
 
 namespace FractalEngine.Tests.Render.Ui;
 
@@ -106,7 +107,7 @@ public sealed class OverlayTests
     public void Text_LongLineOfParts_IsWrappedBetweenThem()
     {
         var panel = OverlayPanel.OfText(OverlayAnchor.TopLeft, "a part of words · another part · H: keys");
-        var layout = OverlayLayout.Create(Atlas, [panel], 290, 300);
+        var layout = OverlayLayout.Create([panel], new(0, 0, 290, 300));
         // The second line begins with the last part, without the separator.
         var glyphs = layout.Quads.Where(static quad => quad.Glyph >= 0);
         var rows = glyphs.GroupBy(static quad => quad.Y).OrderBy(static row => row.Key).ToArray();
@@ -122,7 +123,7 @@ public sealed class OverlayTests
     {
         var question = TableOf(
             OverlayAnchor.Centre, "A title that is wider than the frame", [("T", "a tree: a trunk with branches"), ("Esc", "cancel")]);
-        var layout = OverlayLayout.Create(Atlas, [question], width, height);
+        var layout = OverlayLayout.Create([question], new(0, 0, width, height));
         Assert.All(layout.Quads, quad => Assert.InRange(quad.X, 0, width - quad.Width));
         Assert.Equal(5, layout.Quads.Count(static quad => quad.Glyph == Atlas.GlyphOf('r')));
     }
@@ -132,7 +133,7 @@ public sealed class OverlayTests
     [InlineData(32, 32)]
     public void Text_OfAWantedHeight_HasIt(int? wanted, int closest)
     {
-        var layout = OverlayLayout.Create(Atlas, [OverlayPanel.OfText(OverlayAnchor.TopLeft, "text")], 700, 400, wanted);
+        var layout = OverlayLayout.Create([OverlayPanel.OfText(OverlayAnchor.TopLeft, "text")], new(0, 0, 700, 400), wanted);
         Assert.InRange(Atlas.Sheets[layout.SheetIndex].CellHeight, closest - 2, closest + 2);
     }
 
@@ -140,7 +141,7 @@ public sealed class OverlayTests
     public void Table_TwoColumns_AlignsTheSecond()
     {
         var panels = new[] { TableOf(OverlayAnchor.TopLeft, "Keys", [("W", "||"), ("LONGER", "||")]) };
-        var layout = OverlayLayout.Create(Atlas, panels, 1280, 720);
+        var layout = OverlayLayout.Create(panels, new(0, 0, 1280, 720));
         var bars = layout.Quads.Where(quad => (int)quad.Glyph == Atlas.GlyphOf('|')).Select(quad => quad.X).Distinct().Order().ToArray();
         Assert.Equal(2, bars.Length);
     }

@@ -1,5 +1,6 @@
 using FractalEngine.Render.Ui;
 using FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Render.Ui.Painting;
 using FractalEngine.Render.Windowing.Events;
 using FractalEngine.Render.Windowing.Keyboard;
 
@@ -88,7 +89,7 @@ public class UserInterfaceTests
     public void CheckBox_ClickedAndBySpace_Switches()
     {
         var isOn = false;
-        Show(ui => ui.CheckBox("switch", ref isOn));
+        Show(ui => isOn ^= ui.CheckBox("switch", isOn));
         Click("switch");
         Assert.True(isOn);
         Assert.True(UiText.Contains(_ui, "✓"));
@@ -511,14 +512,12 @@ public class UserInterfaceTests
         }
 
         // Texts over the scene, at worst a white one.
-        var (red, green, blue, alpha) = OverlayLayout.PanelColour;
-        var scene = 1 - alpha;
+        var (red, green, blue) = OverlayLayout.PanelColour;
+        const double alpha = OverlayLayout.PanelOpacity;
+        const double scene = 1 - alpha;
         var overWhite = new Core.Geometry.Colour(scene + (alpha * red), scene + (alpha * green), scene + (alpha * blue));
-        Assert.All(Enum.GetValues<OverlayTone>(), tone =>
-        {
-            var text = OverlayLayout.ColourOf(tone);
-            Assert.InRange(Contrast(new(text.Red, text.Green, text.Blue), overWhite), 4.5, 21);
-        });
+        Assert.All(
+            Enum.GetValues<OverlayTone>(), tone => Assert.InRange(Contrast(OverlayLayout.ColourOf(tone), overWhite), 4.5, 21));
         Assert.Equal(21, Contrast(Core.Geometry.Colour.Black, Core.Geometry.Colour.White), 6);
     }
 

@@ -1,11 +1,12 @@
-namespace FractalEngine.Render.Ui.Overlays;
+using FractalEngine.Core.Geometry;
+using FractalEngine.Render.Ui.Overlays;
 
-/// <summary>Lays panels out as rectangles in whole pixels: font size, wrapping, columns and stacking.</summary>
-/// <param name="atlas">Glyphs of the font.</param>
+namespace FractalEngine.Render.Ui.Painting;
+
+/// <summary>Lays panels out in whole pixels: font size, wrapping, columns and stacking. A painter of its own paints them.</summary>
+/// <param name="area">The part of the frame that the panels stand in, in pixels.</param>
 /// <param name="sheetIndex">Index of the sheet that the glyphs are taken from.</param>
-/// <param name="width">Width of the frame in pixels.</param>
-/// <param name="height">Height of the frame in pixels.</param>
-internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width, int height)
+internal sealed class OverlayLayout(UiRect area, int sheetIndex)
 {
     // Lines of text that fit a frame: in 720 rows of pixels the text is 16 pixels high, and it grows with the frame.
     private const double TextRows = 45;
@@ -15,41 +16,38 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
     private const string PartSeparator = " · ";
 
     // So dark over a white scene, too, that all texts contrast with it by 4.5:1.
-    internal static readonly (float Red, float Green, float Blue, float Alpha) PanelColour = (0.055f, 0.065f, 0.085f, 0.85f);
-    private static readonly (float, float, float, float) TrackColour = (1, 1, 1, 0.14f);
-    private static readonly (float, float, float, float) BarColour = (0.42f, 0.71f, 0.93f, 1);
+    internal const double PanelOpacity = 0.85;
+    internal static readonly Colour PanelColour = new(0.055, 0.065, 0.085);
+    private const double TrackOpacity = 0.14;
+    private static readonly Colour BarColour = new(0.42, 0.71, 0.93);
 
-    private readonly (int Width, int Height) _frameSize = (width, height);
-    private readonly List<(int X, int Y, int Width, int Height)> _panels = [];
+    // What has no room is cut off by the frame alone.
+    private readonly UiPainter _painter = new() { Sheet = GlyphAtlas.Shared.Sheets[sheetIndex], Clip = UiRect.Everything };
+    private readonly List<UiRect> _panels = [];
 
     /// <summary>Index of the sheet that the glyphs are taken from.</summary>
     public int SheetIndex { get; } = sheetIndex;
 
     /// <summary>Rectangles in drawing order.</summary>
-    public List<OverlayQuad> Quads { get; } = [];
+    public List<OverlayQuad> Quads => _painter.ToQuads();
 
     /// <summary>Where a click answers something, and what.</summary>
     public List<(UiRect Area, int Answer)> Answers { get; } = [];
 
-    private GlyphSheet Sheet => atlas.Sheets[SheetIndex];
+    private int Margin => _painter.LineHeight / 2;
 
-    private int Margin => Sheet.CellHeight / 2;
-
-    private int Padding => Sheet.CellWidth;
+    private int Padding => _painter.CellWidth;
 
     /// <summary>Lays panels out at the preferred font size, or at a smaller one where they do not fit.</summary>
-    /// <param name="atlas">Glyphs of the font.</param>
     /// <param name="panels">Panels in the order in which they are stacked, away from their anchor.</param>
-    /// <param name="width">Width of the frame in pixels.</param>
-    /// <param name="height">Height of the frame in pixels.</param>
-    /// <param name="preferredLineHeight">Wanted height of a line in pixels; null for one that follows the frame.</param>
-    public static OverlayLayout Create(
-        GlyphAtlas atlas, IReadOnlyList<OverlayPanel> panels, int width, int height, int? preferredLineHeight = null)
+    /// <param name="area">The part of the frame that the panels stand in, in pixels.</param>
+    /// <param name="preferredLineHeight">Wanted height of a line in pixels; null for one that follows the area.</param>
+    public static OverlayLayout Create(IReadOnlyList<OverlayPanel> panels, UiRect area, int? preferredLineHeight = null)
     {
-        var lineHeight = preferredLineHeight ?? 1.2 * Math.Min(height / TextRows, width / TextColumns);
-        for (var sheet = atlas.ClosestSheet(lineHeight); ; sheet--)
+        var lineHeight = preferredLineHeight ?? 1.2 * Math.Min(area.Height / TextRows, area.Width / TextColumns);
+        for (var sheet = GlyphAtlas.Shared.ClosestSheet(lineHeight); ; sheet--)
         {
-            var layout = new OverlayLayout(atlas, sheet, width, height);
+            var layout = new OverlayLayout(area, sheet);
             var fits = true;
             foreach (var panel in panels)
             {
@@ -64,20 +62,20 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         }
     }
 
-    /// <summary>Returns the colour of a text, sRGB with its opacity.</summary>
-    internal static (float Red, float Green, float Blue, float Alpha) ColourOf(OverlayTone tone) => OverlayQuad.Tint(tone switch
+    /// <summary>Returns the colour of a text.</summary>
+    internal static Colour ColourOf(OverlayTone tone) => tone switch
     {
         OverlayTone.Dim => UiTheme.Dark.DimText,
         OverlayTone.Accent => UiTheme.Dark.Accent,
         OverlayTone.Warning => UiTheme.Dark.Warning,
         _ => UiTheme.Dark.Text,
-    });
+    };
 
-    /// <summary>Adds the rectangles of a panel.</summary>
-    /// <returns>False when the panel does not fit the frame.</returns>
+    /// <summary>Paints a panel in the next free place.</summary>
+    /// <returns>False when the panel does not fit the area.</returns>
     private bool AddPanel(OverlayPanel panel)
     {
-        var (cellWidth, lineHeight) = (Sheet.CellWidth, Sheet.CellHeight);
+        var (cellWidth, lineHeight) = (_painter.CellWidth, _painter.LineHeight);
         var lines = Wrap(panel.Lines);
         var title = panel.Title is null ? [] : Wrap([new(panel.Title)]);
         var firstColumn = FirstColumn(lines);
@@ -89,12 +87,11 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
         var height = titleHeight + (lines.Count * lineHeight) + barHeight + (2 * Padding * 3 / 4);
 
         var (x, y) = AllocatePosition(panel.Anchor, width, height);
-        var fits = x >= 0 && y >= 0 && x + width <= _frameSize.Width && y + height <= _frameSize.Height;
+        var fits = x >= area.X && y >= area.Y && x + width <= area.Right && y + height <= area.Bottom;
         // Without room left, a message covers others rather than being cut off.
-        y = Math.Max(0, Math.Min(y, _frameSize.Height - height));
+        y = Math.Max(area.Y, Math.Min(y, area.Bottom - height));
         // What lies behind a question may be text, too.
-        var ground = panel.IsQuestion ? PanelColour with { Alpha = 1 } : PanelColour;
-        Quads.Add(new(x, y, width, height, ground, -1, 0.4f * lineHeight));
+        _painter.Fill(new(x, y, width, height), PanelColour, 0.4f * lineHeight, panel.IsQuestion ? 1 : PanelOpacity);
         var left = x + Padding;
         var top = y + (Padding * 3 / 4);
         for (var i = 0; i < title.Count; i++)
@@ -118,19 +115,19 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
 
         if (panel.Progress is { } progress)
         {
-            AddBar(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4), progress);
+            AddBar(new(left, top + (lineHeight / 2), width - (2 * Padding), Math.Max(3, lineHeight / 4)), progress);
         }
 
         return fits;
     }
 
-    private void AddBar(int x, int y, int width, int height, double progress)
+    private void AddBar(UiRect track, double progress)
     {
-        var filled = (int)Math.Round(width * (progress >= 0 ? Math.Min(progress, 1) : 0));
-        Quads.Add(new(x, y, width, height, TrackColour, -1, 0.5f * height));
+        var filled = (int)Math.Round(track.Width * (progress >= 0 ? Math.Min(progress, 1) : 0));
+        _painter.Fill(track, Colour.White, 0.5f * track.Height, TrackOpacity);
         if (filled > 0)
         {
-            Quads.Add(new(x, y, Math.Max(filled, height), height, BarColour, -1, 0.5f * height));
+            _painter.Fill(track with { Width = Math.Max(filled, track.Height) }, BarColour, 0.5f * track.Height);
         }
     }
 
@@ -140,35 +137,35 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
     private (int X, int Y) AllocatePosition(OverlayAnchor anchor, int width, int height)
     {
         var gap = Margin / 2;
-        var x = anchor is OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft ? Margin : (_frameSize.Width - width) / 2;
+        var x = area.X + (anchor is OverlayAnchor.TopLeft or OverlayAnchor.BottomLeft ? Margin : (area.Width - width) / 2);
         var growsDown = anchor is OverlayAnchor.TopLeft or OverlayAnchor.Centre;
         var y = anchor switch
         {
-            OverlayAnchor.TopLeft => Margin,
-            OverlayAnchor.Centre => (_frameSize.Height - height) / 2,
-            _ => _frameSize.Height - height - Margin,
+            OverlayAnchor.TopLeft => area.Y + Margin,
+            OverlayAnchor.Centre => area.Y + ((area.Height - height) / 2),
+            _ => area.Bottom - height - Margin,
         };
         // The nearest edges first, so that one pass finds the place.
         var ordered = growsDown
             ? _panels.OrderBy(static panel => panel.Y)
-            : _panels.OrderByDescending(static panel => panel.Y + panel.Height);
+            : _panels.OrderByDescending(static panel => panel.Bottom);
         foreach (var other in ordered)
         {
-            var isBeside = x >= other.X + other.Width || other.X >= x + width;
-            if (!isBeside && y < other.Y + other.Height + gap && other.Y < y + height + gap)
+            var isBeside = x >= other.Right || other.X >= x + width;
+            if (!isBeside && y < other.Bottom + gap && other.Y < y + height + gap)
             {
-                y = growsDown ? other.Y + other.Height + gap : other.Y - height - gap;
+                y = growsDown ? other.Bottom + gap : other.Y - height - gap;
             }
         }
 
-        _panels.Add((x, y, width, height));
+        _panels.Add(new(x, y, width, height));
         return (x, y);
     }
 
     /// <summary>Breaks lines of one column so that they fit the frame, and those of two where no smaller size would.</summary>
     private List<OverlayLine> Wrap(IReadOnlyList<OverlayLine> lines)
     {
-        var columns = Math.Max(8, (_frameSize.Width - (2 * Margin) - (2 * Padding)) / Sheet.CellWidth);
+        var columns = Math.Max(8, (area.Width - (2 * Margin) - (2 * Padding)) / _painter.CellWidth);
         var second = SheetIndex > 0 ? int.MaxValue : Math.Max(8, columns - FirstColumn(lines));
         return [.. lines.SelectMany(line => line.SecondColumn is { } text
             ? TextLines.Wrap(text, second).Select((row, i) => line with { Text = i == 0 ? line.Text : "", SecondColumn = row })
@@ -180,15 +177,6 @@ internal sealed class OverlayLayout(GlyphAtlas atlas, int sheetIndex, int width,
     private static int FirstColumn(IEnumerable<OverlayLine> lines) =>
         lines.Where(static row => row.SecondColumn is not null).Select(static row => row.Text.Length + 2).DefaultIfEmpty(0).Max();
 
-    private void AddText(string text, int x, int y, OverlayTone tone)
-    {
-        for (var i = 0; i < text.Length; i++)
-        {
-            if (text[i] != ' ')
-            {
-                Quads.Add(new(
-                    x + (i * Sheet.CellWidth), y, Sheet.CellWidth, Sheet.CellHeight, ColourOf(tone), atlas.GlyphOf(text[i]), 0));
-            }
-        }
-    }
+    private void AddText(string text, int x, int y, OverlayTone tone) =>
+        _painter.Print(text, new(x, y, text.Length * _painter.CellWidth, _painter.LineHeight), ColourOf(tone));
 }
