@@ -96,7 +96,6 @@ public class RigidEnergyTests
     [InlineData(1e-3, 300)]
     [InlineData(1e-5, 30)]
     [InlineData(1e-4, 1000)]
-    [InlineData(1e-6, 0)]
     public void SmallBodies_PressedIntoABox_GainNoEnergy(double size, double spin) => Seeded.Run(30, random =>
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(RigidMeshes.Box(6 * size, 6 * size, 6 * size)));
