@@ -7,7 +7,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests outputs of <c>render</c> with more than 8 bits. Commands run in the process of the tests, and a plain reader reads their files.</summary>
+/// <summary>Tests outputs of <c>render</c> with more than 8 bits. A plain reader reads the files.</summary>
 [Collection(ConsoleTests.Name)]
 public sealed class LightOutputTests : DrawingCommandTests
 {

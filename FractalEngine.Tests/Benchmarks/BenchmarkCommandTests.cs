@@ -3,7 +3,7 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>Runs the benchmarks' program in the process of the tests. Wrong arguments end it before anything is measured or written.</summary>
+/// <summary>Runs the benchmarks' program. Wrong arguments end it before anything is measured or written.</summary>
 [Collection(ConsoleTests.Name)]
 public sealed class BenchmarkCommandTests : IDisposable
 {

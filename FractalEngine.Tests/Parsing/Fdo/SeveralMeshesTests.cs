@@ -426,8 +426,8 @@ public sealed class SeveralMeshesTests : IDisposable
     [Fact]
     public void Instances_ThatShrinkToAPoint_AreCountedSoon()
     {
-        var fractal = Read("t. ((1, 0, 0), #, (0.5))\nb<box>. [#, t.] box\n<$>. b 400");
-        Assert.Equal(401, DistinctInstances.CountAtMost(fractal, budget: 0));
+        var fractal = Read("t. ((1, 0, 0), #, (0.5))\nb<box>. [#, t.] box\n<$>. b 1000");
+        Assert.Equal(1001, DistinctInstances.CountAtMost(fractal, budget: 0));
         Assert.Null(DistinctInstances.Count(fractal));
     }
 
