@@ -33,5 +33,6 @@ public abstract class DrawingCommandTests : IDisposable
 
     private protected PixelImage ReadImage(string file) => ImageFile.Load(Folder[file]);
 
-    private protected AppResult Run(params string[] arguments) => AppProcess.Run(Folder.Path, arguments);
+    /// <summary>Runs a command in the process of the tests: its classes belong to <see cref="ConsoleTests"/>.</summary>
+    private protected AppResult Run(params string[] arguments) => AppInProcess.Run(Folder.Path, arguments);
 }

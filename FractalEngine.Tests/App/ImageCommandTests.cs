@@ -3,7 +3,8 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests the options of <c>render</c>. Each command runs as a process and draws.</summary>
+/// <summary>Tests the options of <c>render</c>. Each command draws, in the process of the tests.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class ImageCommandTests : DrawingCommandTests
 {
     // For tests of shapes and places: what fractals see of the sky takes seconds.

@@ -3,10 +3,12 @@ using FractalEngine.Core.Images;
 using FractalEngine.Core.Scenes;
 using FractalEngine.Render.Lights;
 using FractalEngine.Tests.Images;
+using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests outputs of <c>render</c> with more than 8 bits. Each command is a process, and a plain reader reads its file.</summary>
+/// <summary>Tests outputs of <c>render</c> with more than 8 bits. A plain reader reads the files.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class LightOutputTests : DrawingCommandTests
 {
     private const string Shown = "exposure 1.5\ntone filmic\nlight ambient (1, 1, 1) 0.7\nlight directional (0.3, -0.5, 1) (1, 1, 1) 3\n";

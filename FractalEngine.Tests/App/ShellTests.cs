@@ -31,29 +31,6 @@ public sealed class ShellTests : IDisposable
         Assert.All(lines[^2..], static line => Assert.StartsWith("  ./run.sh ", line, StringComparison.Ordinal));
     }
 
-    [Theory]
-    [InlineData(@"^wrote flat\.obj: 96 faces, [0-9.]+ kB, [0-9.]+ s\n$", "export", "row.fdo", "--output", "flat.obj")]
-    [InlineData(@"^wrote copy\.sdo: 1 object, [0-9]+ bytes, [0-9.]+ s\n$", "save", "row.fdo", "--output", "copy.sdo")]
-    [InlineData(@"^$", "export", "row.fdo", "--output", "flat.obj", "--quiet")]
-    [InlineData(
-        @"^load [0-9.]+ ms\nwrite [0-9.]+ ms\nwrote copy\.sdo: 1 object, [0-9]+ bytes, [0-9.]+ s\n$",
-        "save", "row.fdo", "--output", "copy.sdo", "--verbose")]
-    public void Output_WhenWritten_IsToldInOneLine(string report, params string[] arguments)
-    {
-        var (exitCode, output, error) = Run(arguments);
-        Assert.Equal((0, ""), (exitCode, output));
-        Assert.Matches(report, error);
-    }
-
-    [SkippableFact]
-    public void Output_ThroughALink_IsToldWithTheSizeOfTheFile()
-    {
-        Elsewhere.SkipOnWindows("links need rights there");
-        File.CreateSymbolicLink(_folder["link.obj"], "flat.obj");
-        var (_, _, error) = Run("export", "cube.obj", "--output", "link.obj");
-        Assert.Contains($": 12 faces, {new FileInfo(_folder["flat.obj"]).Length} bytes, ", error, StringComparison.Ordinal);
-    }
-
     [SkippableFact]
     public void View_OfAMissingFileWithoutADisplay_NamesTheFile()
     {
@@ -105,19 +82,6 @@ public sealed class ShellTests : IDisposable
             new AppResult(1, "", "-:1:1: error: the standard input can't be read: Is a directory\n"), RunInShell("{0} info - < ."));
     }
 
-    [SkippableFact]
-    public void Messages_OfNamesWithLineBreaks_AreOneLine()
-    {
-        Elsewhere.SkipOnWindows("no name has line breaks there");
-        Assert.Equal(new AppResult(1, "", "no\\u000Aname.fdo:1:1: error: file not found\n"), Run("info", "no\nname.fdo"));
-        var (_, _, error) = Run("export", "cube.obj", "--output", "a\nb.obj");
-        Assert.StartsWith("wrote a\\u000Ab.obj: 12 faces, ", error, StringComparison.Ordinal);
-    }
-
-    [Fact]
-    public void Names_WithAnAtSign_AreNames() => Assert.Equal(
-        new AppResult(1, "", "@cube.stl:1:1: error: file not found\n"), Run("info", "@cube.stl"));
-
     [SkippableTheory]
     [InlineData("info cube.obj")]
     [InlineData("generate torus-knot --output a.obj")]
@@ -149,15 +113,6 @@ public sealed class ShellTests : IDisposable
         var (exitCode, output, _) = RunWithInput("0 0 1\n", "query", "cube.obj", "--points", points, "--header", "--error-bound");
         Assert.Equal(0, exitCode);
         Assert.StartsWith("distance x y z nx ny nz faceTests errorBound\n0.5 ", output, StringComparison.Ordinal);
-    }
-
-    [Fact]
-    public void Check_OfFilesAndFolders_ChecksEachAndTakesTheWorstCode()
-    {
-        _folder.Write("more/bad.fdo", "<$>. x\n");
-        var (exitCode, output, error) = Run("check", "row.fdo", "more", "cube.obj");
-        Assert.Equal((1, "row.fdo: ok\ncube.obj: ok\n"), (exitCode, output));
-        Assert.StartsWith("more/bad.fdo:1:6: error: the object 'x' is not declared above\n", error, StringComparison.Ordinal);
     }
 
     [Fact]

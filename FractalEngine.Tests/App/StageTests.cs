@@ -48,7 +48,8 @@ public sealed class StageTests : DrawingCommandTests
         Folder.Write("scene-of-row.sdo", "o \"row.fdo\" #\n");
         byte[] Pixels(string file, params string[] options)
         {
-            var (exitCode, _, _) = Run(["render", file, "-o", "a.png", "--trace", "1", "--resolution", "16x12", .. options]);
+            var (exitCode, _, _) = AppProcess.Run(
+                Folder.Path, ["render", file, "-o", "a.png", "--trace", "1", "--resolution", "16x12", .. options]);
             Assert.Equal(0, exitCode);
             return ReadImage("a.png").Pixels;
         }

@@ -44,6 +44,27 @@ public sealed class TerminalTests : IDisposable
         Assert.Equal(Encoding.Latin1.GetBytes("ä.obj:1:1: error: file not found\n"), error.ToArray());
     }
 
+    [SkippableTheory]
+    [InlineData("", true)]
+    [InlineData("--quiet", false)]
+    public void Progress_OnATerminal_CountsFramesAndIsClearedAtTheEnd(string option, bool isTold)
+    {
+        var output = Run($"animate scene.sdo --turntable --frames 3 --trace 1 --resolution 8x8 --output f.png {option}");
+        Assert.Equal(3, Directory.GetFiles(_folder.Path, "f-*.png").Length);
+        if (isTold)
+        {
+            Assert.Matches(
+                @"\rframe 1 of 3, \d+ s left +\rframe 2 of 3, \d+ s left +\rframe 3 of 3, 0 s left +\r +\r"
+                + @"wrote f-0001\.png to f-0003\.png: 3 frames, [0-9.]+ s\r\n",
+                output);
+        }
+        else
+        {
+            // The runtime tells the terminal some of its own.
+            Assert.DoesNotMatch("frame|wrote", output);
+        }
+    }
+
     private string Run(string arguments) =>
         Terminal.Run(_folder.Path, $"dotnet exec '{typeof(ExitCode).Assembly.Location}' {arguments}");
 }

@@ -1,4 +1,3 @@
-using FractalEngine.App.Shell;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Parsing.Simulation;
 using FractalEngine.Render.Images;
@@ -6,7 +5,8 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App;
 
-/// <summary>Tests the frames of <c>animate --trace</c>, for which no display is needed, and what a terminal shows meanwhile.</summary>
+/// <summary>Tests the frames of <c>animate --trace</c>, for which no display is needed.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class TracedAnimationTests : IDisposable
 {
     private static readonly string[] Traced = ["--trace", "2", "--resolution", "24x16"];
@@ -46,7 +46,7 @@ public sealed class TracedAnimationTests : IDisposable
         _folder.Write("cameras.txt", "(0, 0, -5) (0, 0, 0) 60\n(1e308, 0, 0) (0, 0, 0) 60\n");
         Assert.Equal(
             new AppResult(3, "", "cameras.txt:2:1: error: the camera of a path is beyond the limit of 1e150\n"),
-            AppProcess.Run(_folder.Path, ["animate", "scene.sdo", "--path", "cameras.txt", .. Traced, "--output", "f.png"]));
+            AppInProcess.Run(_folder.Path, ["animate", "scene.sdo", "--path", "cameras.txt", .. Traced, "--output", "f.png"]));
     }
 
     /// <summary>The last frame leads on to the first: of two, it shows the other side.</summary>
@@ -128,30 +128,6 @@ public sealed class TracedAnimationTests : IDisposable
         }
     }
 
-    [SkippableTheory]
-    [InlineData("", true)]
-    [InlineData("--quiet", false)]
-    public void Progress_OnATerminal_CountsFramesAndIsClearedAtTheEnd(string option, bool isTold)
-    {
-        var program = typeof(ExitCode).Assembly.Location;
-        var output = Terminal.Run(
-            _folder.Path,
-            $"dotnet exec '{program}' animate scene.sdo --turntable --frames 3 --trace 1 --resolution 8x8 --output f.png {option}");
-        Assert.Equal(3, Directory.GetFiles(_folder.Path, "f-*.png").Length);
-        if (isTold)
-        {
-            Assert.Matches(
-                @"\rframe 1 of 3, \d+ s left +\rframe 2 of 3, \d+ s left +\rframe 3 of 3, 0 s left +\r +\r"
-                + @"wrote f-0001\.png to f-0003\.png: 3 frames, [0-9.]+ s\r\n",
-                output);
-        }
-        else
-        {
-            // The runtime tells the terminal some of its own.
-            Assert.DoesNotMatch("frame|wrote", output);
-        }
-    }
-
     /// <summary>Requires the two frames of an animation to be two still images, to the bit, which differ.</summary>
     private void AssertFrames(string file, string[] motion, string[] first, string[] second)
     {
@@ -172,7 +148,7 @@ public sealed class TracedAnimationTests : IDisposable
 
     private void Run(string[] arguments)
     {
-        var (exitCode, _, error) = AppProcess.Run(_folder.Path, arguments);
+        var (exitCode, _, error) = AppInProcess.Run(_folder.Path, arguments);
         Assert.True(exitCode == 0, error);
     }
 

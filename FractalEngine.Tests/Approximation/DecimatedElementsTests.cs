@@ -2,6 +2,7 @@ using FractalEngine.Benchmarks.Approximation;
 using FractalEngine.Benchmarks.Approximation.Unseen;
 using FractalEngine.Core.Approximation.Damaged;
 using FractalEngine.Core.Approximation.Damaged.Placements;
+using FractalEngine.Core.Approximation.Grammars;
 using FractalEngine.Parsing.Approximation;
 
 namespace FractalEngine.Tests.Approximation;
@@ -11,13 +12,19 @@ public sealed class DecimatedElementsTests
 {
     private static readonly Damage Decimated = new(DamageKind.Decimated, 0.5);
 
+    private static readonly Lazy<(UnseenInput Input, MeshGrammar? Grammar)> Leaves = new(static () =>
+    {
+        var input = Decimate(FractalKind.Leaves, 20);
+        return (input, DamagedSearch.Find(input.Mesh, new(), default));
+    });
+
     [Theory]
     [InlineData("Leaves", 20)]
     [InlineData("TreeWithIdentity", 18)]
     public void Find_OfADecimatedFractal_FindsItsMaps(string kind, int seed)
     {
-        var input = Decimate(Enum.Parse<FractalKind>(kind), seed);
-        var grammar = DamagedSearch.Find(input.Mesh, new(), default);
+        var input = kind == "Leaves" ? Leaves.Value.Input : Decimate(Enum.Parse<FractalKind>(kind), seed);
+        var grammar = kind == "Leaves" ? Leaves.Value.Grammar : DamagedSearch.Find(input.Mesh, new(), default);
         Assert.NotNull(grammar);
         var diagonal = input.Clean.Bounds.Diagonal;
         var made = WrittenGrammar.Create(UndamagedBase.Put(grammar, input), diagonal, 100_000).Mesh;
@@ -29,7 +36,7 @@ public sealed class DecimatedElementsTests
     [Fact]
     public void Measure_OfADecimatedFractal_CallsItApproximate()
     {
-        var outcome = SearchOutcome.Measure(Decimate(FractalKind.Leaves, 20), Decimated);
+        var outcome = SearchOutcome.Measure(Leaves.Value.Input, Decimated);
         Assert.True(outcome.IsFound, outcome.Description);
         Assert.StartsWith("found Approximate", outcome.Description, StringComparison.Ordinal);
     }
@@ -37,7 +44,7 @@ public sealed class DecimatedElementsTests
     [Fact]
     public void CreateOfDecimated_OfDomes_PlacesAllWithTheSymmetriesOfTheWholeDome()
     {
-        var model = DamagedModel.CreateOfDecimated(Decimate(FractalKind.Leaves, 20).Mesh, default);
+        var model = DamagedModel.CreateOfDecimated(Leaves.Value.Input.Mesh, default);
         Assert.NotNull(model);
         Assert.Equal(49, model.Elements.Count);
         // A dome of seven segments, of which no decimated one has any symmetry.
@@ -58,9 +65,8 @@ public sealed class DecimatedElementsTests
     [Fact]
     public void Put_OfWrongMaps_IsNotFound()
     {
-        var input = Decimate(FractalKind.Leaves, 20);
-        var grammar = DamagedSearch.Find(input.Mesh, new(), default)!;
-        var wrong = grammar with { Steps = [.. grammar.Steps.Skip(1)] };
+        var (input, grammar) = Leaves.Value;
+        var wrong = grammar! with { Steps = [.. grammar.Steps.Skip(1)] };
         var diagonal = input.Clean.Bounds.Diagonal;
         var made = WrittenGrammar.Create(UndamagedBase.Put(wrong, input), diagonal, 100_000).Mesh;
         Assert.False(Grader.CompareSurfaces(made, input, UndamagedBase.MapTolerance * diagonal).IsFound);

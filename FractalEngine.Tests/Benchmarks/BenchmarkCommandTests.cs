@@ -3,7 +3,8 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.Benchmarks;
 
-/// <summary>Runs the benchmarks' program as a process. Wrong arguments end it before anything is measured or written.</summary>
+/// <summary>Runs the benchmarks' program. Wrong arguments end it before anything is measured or written.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class BenchmarkCommandTests : IDisposable
 {
     private readonly TemporaryFolder _folder = new();
@@ -68,7 +69,7 @@ public sealed class BenchmarkCommandTests : IDisposable
     public void Run_OfAnUnknownCommand_NamesAllThereAre() => Assert.Equal(
         new AppResult(2, "",
         $"error: unknown command 'Front': expected one of {string.Join(' ', Names)}, or an option of BenchmarkDotNet{Environment.NewLine}"),
-        AppProcess.RunBenchmarks(_folder.Path, "Front", "--output", "out"));
+        AppInProcess.RunBenchmarks(_folder.Path, "Front", "--output", "out"));
 
     [Fact]
     [Trait("Category", "Soak")]
@@ -95,7 +96,7 @@ public sealed class BenchmarkCommandTests : IDisposable
 
     private void AssertRefused(string command, string unexpected, params string[] args)
     {
-        var (exitCode, output, error) = AppProcess.RunBenchmarks(_folder.Path, [command, "--output", "out", .. args]);
+        var (exitCode, output, error) = AppInProcess.RunBenchmarks(_folder.Path, [command, "--output", "out", .. args]);
         Assert.Equal((2, ""), (exitCode, output));
         var lines = error.ReplaceLineEndings("\n").Split('\n');
         Assert.Equal($"error: unexpected '{unexpected}'", lines[0]);

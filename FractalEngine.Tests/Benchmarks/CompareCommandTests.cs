@@ -7,6 +7,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.Benchmarks;
 
 /// <summary>Tests where the comparison of two images ends well.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class CompareCommandTests : IDisposable
 {
     private static readonly PixelImage Reference = new(2, 1, [10, 20, 30, 255, 40, 50, 60, 255]);
@@ -106,7 +107,7 @@ public sealed class CompareCommandTests : IDisposable
 
     private AppResult Compare(params string[] options)
     {
-        var (exitCode, output, error) = AppProcess.RunBenchmarks(
+        var (exitCode, output, error) = AppInProcess.RunBenchmarks(
             _folder.Path, ["compare", .. options, "image.png", "reference.png"]);
         return new(exitCode, output.ReplaceLineEndings("\n"), error.ReplaceLineEndings("\n"));
     }

@@ -44,7 +44,6 @@ public class ExactFractalColliderDepthTests
     [InlineData("snowflake", 20)]
     [InlineData("diamond", null)]
     [InlineData("romanesco", 1_000_000)]
-    [InlineData("fern", null)]
     [InlineData("fern", 20)]
     [InlineData("appendix-b", 60)]
     [InlineData("terrain", 20)]

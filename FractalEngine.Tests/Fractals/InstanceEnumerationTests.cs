@@ -93,11 +93,6 @@ public class InstanceEnumerationTests
         }
     }
 
-    [Fact]
-    public void ListLargest_OfAMapWithoutEnd_Ends() =>
-        Assert.Single(InstanceEnumeration.ListLargest(
-            [(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5)), AffineMap.Identity)], 9));
-
     private static bool HaveSameInstances(Fractal fractal, bool hasPaths)
     {
         var (instances, count) = fractal.Enumerate(MaxInstances, hasPaths);

@@ -14,7 +14,16 @@ internal static class AppInProcess
     /// <summary>Runs a command line to its end.</summary>
     /// <param name="folder">The current folder of the command.</param>
     /// <param name="arguments">Arguments as on the command line.</param>
-    public static AppResult Run(string folder, params string[] arguments)
+    public static AppResult Run(string folder, params string[] arguments) =>
+        Run(folder, () => FractalEngine.App.CommandLine.Run(arguments));
+
+    /// <summary>Runs the benchmarks' program to its end. An exception that it lets through reaches the caller.</summary>
+    public static AppResult RunBenchmarks(string folder, params string[] arguments) => Run(
+        folder,
+        () => (int)typeof(FractalEngine.Benchmarks.Measuring.CommandLineParser).Assembly.EntryPoint!.Invoke(
+            null, BindingFlags.DoNotWrapExceptions, null, [arguments], CultureInfo.InvariantCulture)!);
+
+    private static AppResult Run(string folder, Func<int> run)
     {
         string before = Directory.GetCurrentDirectory();
         var (output, error) = (Console.Out, Console.Error);
@@ -25,7 +34,7 @@ internal static class AppInProcess
         Console.SetError(errorText);
         try
         {
-            int exitCode = FractalEngine.App.CommandLine.Run(arguments);
+            int exitCode = run();
             return new(exitCode, outputText.ToString(), errorText.ToString());
         }
         finally

@@ -13,11 +13,12 @@ public sealed class LongestCollectionsFirst : ITestCollectionOrderer
     // The longest one first. A class without a collection of its own is one.
     private static readonly string[] Longest =
     [
-        App.Window.DrivenWindow.Collection, Render.GlTests.Name, NameOf<App.CommandLineTests>(), NameOf<App.ImageCommandTests>(),
-        NameOf<App.ExampleImageTests>(), NameOf<App.Commands.AnimateCommandTests>(), NameOf<Physics.MovingObjectTests>(),
-        NameOf<App.Commands.SimulateCommandTests>(), NameOf<App.ShellTests>(), NameOf<Physics.CompoundTests>(),
-        NameOf<Robustness.MemoryTests>(), NameOf<Generation.MeshGeneratorTests>(), NameOf<Visibility.VisibleSetLimitTests>(),
-        NameOf<App.Commands.QueryCommandTests>(), NameOf<App.TracedAnimationTests>(),
+        Render.GlTests.Name, App.Window.DrivenWindow.Collection, NameOf<Approximation.DecimatedElementsTests>(),
+        NameOf<Generation.MeshGeneratorTests>(), NameOf<Approximation.RepetitionSearchTests>(), NameOf<Approximation.DamagedSearchTests>(),
+        NameOf<App.CommandLineTests>(), NameOf<App.Shell.OutputFileTests>(), NameOf<Physics.Rigid.FastTests>(),
+        NameOf<Colliders.ExactFractalColliderDepthTests>(), NameOf<Scenes.InstanceGradientTests>(),
+        NameOf<Fractals.DistinctInstancesTests>(), NameOf<App.ShellTests>(), NameOf<App.Commands.RecordedProcessTests>(),
+        NameOf<Physics.MovingObjectTests>(), NameOf<App.ExampleImageTests>(), NameOf<Robustness.MemoryTests>(),
     ];
 
     /// <inheritdoc/>

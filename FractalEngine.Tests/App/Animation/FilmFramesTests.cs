@@ -7,6 +7,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Animation;
 
 /// <summary>Tests the frames of films: those of still images, with the same bits, and the mean of many where the shutter is open.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class FilmFramesTests : DrawingCommandTests
 {
     private static readonly string[] Traced = ["--trace", "2"];

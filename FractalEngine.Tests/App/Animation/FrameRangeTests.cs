@@ -7,6 +7,7 @@ using FractalEngine.Tests.Support;
 namespace FractalEngine.Tests.App.Animation;
 
 /// <summary>Tests animations that are made in parts, gone on with, and put together: the bits are those of one run.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class FrameRangeTests : DrawingCommandTests
 {
     private static readonly string[] How =

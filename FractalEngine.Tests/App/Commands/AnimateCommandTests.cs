@@ -4,7 +4,8 @@ using FractalEngine.Tests.Support;
 
 namespace FractalEngine.Tests.App.Commands;
 
-/// <summary>Tests the command <c>animate</c>. Each command runs as a process and draws.</summary>
+/// <summary>Tests the command <c>animate</c>. Commands draw in the process of the tests.</summary>
+[Collection(ConsoleTests.Name)]
 public sealed class AnimateCommandTests : DrawingCommandTests
 {
     [SkippableFact]
@@ -79,38 +80,6 @@ public sealed class AnimateCommandTests : DrawingCommandTests
         Assert.Equal((byte)255, ReadImage("f-0003.png")[32, 32].Blue);
     }
 
-    [SkippableFact]
-    public void Animate_WhenInterrupted_LeavesWholeFrames() => CheckInterrupted();
-
-    [SkippableFact]
-    [Trait("Category", "Soak")]
-    public void Animate_TracedWhenInterrupted_LeavesWholeFrames() => CheckInterrupted("--trace", "8");
-
-    private void CheckInterrupted(params string[] options)
-    {
-        Display.Require();
-        Signals.Require("INT");
-        using var process = AppProcess.Start(
-            Folder.Path, [],
-            ["animate", "scene.sdo", "--turntable", "--frames", "100000", "--output", "f.png", "--resolution", "64x64", .. options]);
-        var error = process.StandardError.ReadToEndAsync();
-        try
-        {
-            Polling.WaitUntil(() => File.Exists(Folder["f-000005.png"]), "fifth frame");
-            Signals.Send(process, "INT");
-            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
-        }
-        finally
-        {
-            process.Kill();
-        }
-
-        Assert.Equal(130, process.ExitCode);
-        Assert.Contains(" frames, ", error.GetAwaiter().GetResult(), StringComparison.Ordinal);
-        var files = Directory.GetFiles(Folder.Path, "f-*");
-        Assert.All(files, file => Assert.Equal(64, ReadImage(file).Height));
-    }
-
     [Theory]
     [InlineData("nothing moves: expected --turntable, --zoom LEVELS, --path CAMERAS.txt, --simulate, or a scene with a film",
         "--output", "a.apng")]
@@ -124,16 +93,6 @@ public sealed class AnimateCommandTests : DrawingCommandTests
         "--output", "a.apng", "--zoom", "1", "--trace", "1")]
     public void Animate_OfFaultyOptions_IsWrongUsage(string message, params string[] options) => Assert.Equal(
         new AppResult(2, "", $"error: {message}\n"), Run(["animate", "scene.sdo", .. options]));
-
-    [Fact]
-    public void Animate_OfAVideoWithoutFfmpeg_SaysWhatIsMissing()
-    {
-        var dotnet = Path.GetDirectoryName(Environment.ProcessPath)!;
-        var environment = new Dictionary<string, string?> { ["PATH"] = dotnet };
-        Assert.Equal(
-            new AppResult(2, "", "error: a.mp4 needs the program ffmpeg, which is not installed; .png and .apng need none\n"),
-            AppProcess.Run(Folder.Path, environment, "animate", "scene.sdo", "--turntable", "--output", "a.mp4"));
-    }
 
     [SkippableFact]
     public void Animate_OfADamagedTexture_SaysSo()
@@ -149,52 +108,6 @@ public sealed class AnimateCommandTests : DrawingCommandTests
         Assert.StartsWith("a.png:1:1: warning: the texture can't be decoded, drawn grey: ", error, StringComparison.Ordinal);
     }
 
-    /// <summary>The encoder itself is a large package, which only the long tests need; here another program takes its name.</summary>
-    [SkippableTheory]
-    [InlineData("a.mp4")]
-    [InlineData("-a:b.mp4")]
-    [InlineData(
-        "LLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLL"
-        + "LLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLLL.mp4")]
-    public void Animate_OfAVideo_GivesTheEncoderEachFrame(string file)
-    {
-        Elsewhere.SkipOnWindows("there are no shell scripts");
-        Display.Require();
-        Folder.Write("bin/ffmpeg", "#!/bin/sh\necho \"$@\" >arguments.txt\nfor last; do :; done\ncat >\"${last#file:}\"\n");
-        if (!OperatingSystem.IsWindows())
-        {
-            File.SetUnixFileMode(Folder["bin/ffmpeg"], UnixFileMode.UserRead | UnixFileMode.UserExecute);
-        }
-
-        var environment = new Dictionary<string, string?> { ["PATH"] = $"{Folder["bin"]}:{Environment.GetEnvironmentVariable("PATH")}" };
-        var (exitCode, _, error) = AppProcess.Run(
-            Folder.Path, environment,
-            "animate", "scene.sdo", "--turntable", $"--output={file}", "--frames", "3", "--fps", "10", "--resolution", "33x21");
-        Assert.True(exitCode == 0, error);
-        Assert.Equal(3, CountChunks("IEND", File.ReadAllBytes(Folder[file])));
-        Assert.Matches(
-            @"^-loglevel error -y -f image2pipe -c:v png -framerate 10 -i - -vf \S+ -pix_fmt yuv420p .*file:\w+\.unfinished\.mp4\n$",
-            File.ReadAllText(Folder["arguments.txt"]));
-    }
-
-    [SkippableTheory]
-    [Trait("Category", "Soak")]
-    [InlineData("a.mp4", 4, "ftyp")]
-    [InlineData("a.webm", 0, "\u001aE\u00df\u00a3")]
-    [InlineData("a.gif", 0, "GIF8")]
-    public void Animate_OfAVideo_IsWrittenThroughFfmpeg(string file, int offset, string signature)
-    {
-        Display.Require();
-        var folders = (Environment.GetEnvironmentVariable("PATH") ?? "").Split(Path.PathSeparator);
-        Skip.IfNot(Array.Exists(folders, folder => File.Exists(Path.Combine(folder, "ffmpeg"))), "ffmpeg is not installed");
-        // Odd sizes, which codecs don't have.
-        var (exitCode, _, error) = Run(
-            "animate", "scene.sdo", "--turntable", "--output", file, "--frames", "3", "--fps", "10", "--resolution", "33x21");
-        Assert.True(exitCode == 0, error);
-        Assert.Equal(signature, Encoding.Latin1.GetString(File.ReadAllBytes(Folder[file]).AsSpan(offset, signature.Length)));
-        Assert.Equal([Folder[file]], Directory.GetFiles(Folder.Path, "a.*"));
-    }
-
-    private static int CountChunks(string chunk, byte[] bytes) =>
+    internal static int CountChunks(string chunk, byte[] bytes) =>
         Encoding.Latin1.GetString(bytes).Split(chunk).Length - 1;
 }

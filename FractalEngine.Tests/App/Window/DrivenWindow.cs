@@ -63,6 +63,13 @@ internal sealed partial class DrivenWindow : IDisposable
     public static DrivenWindow Open(TemporaryFolder folder, string file, params string[] options) =>
         Open(folder, file, options, isTraced: false);
 
+    /// <summary>
+    /// As <see cref="Open(TemporaryFolder, string, string[])"/>, for tests of what is shown rather than how well: a frame and its
+    /// screenshot take a third of the time, and nothing is drawn again while the window rests.
+    /// </summary>
+    public static DrivenWindow OpenInLowQuality(TemporaryFolder folder, string file, params string[] options) => Open(
+        folder, file, ["--samples", "0", "--gather", "1", "--no-shadows", "--no-ambient-occlusion", .. options]);
+
     /// <summary>Opens a window as a user does, without any option. Skips the test where no window can be driven.</summary>
     public static DrivenWindow OpenPlainly(TemporaryFolder folder, string file) => Open(folder, file, [], isTraced: true);
 

@@ -81,7 +81,7 @@ public sealed class ExportWindowTests : IDisposable
 
     private DrivenWindow Open(string file)
     {
-        var window = DrivenWindow.Open(_folder, file);
+        var window = DrivenWindow.OpenInLowQuality(_folder, file);
         window.WaitForError("missing.mtl");
         return window;
     }

@@ -72,7 +72,8 @@ public sealed class FilmWindowTests : IDisposable
 
     private DrivenWindow Open()
     {
-        var window = DrivenWindow.Open(_folder, "film.sdo");
+        var window = DrivenWindow.Open(
+            _folder, "film.sdo", "--gather", "1", "--no-shadows", "--no-ambient-occlusion");
         // The program warns of the missing file as soon as it shows the scene.
         window.WaitForError("missing.mtl");
         return window;

@@ -129,7 +129,7 @@ public sealed class OpeningTests : IDisposable
 
     private DrivenWindow Open()
     {
-        var window = DrivenWindow.Open(_folder, "scene.sdo");
+        var window = DrivenWindow.OpenInLowQuality(_folder, "scene.sdo");
         window.WaitForError(Warning);
         return window;
     }

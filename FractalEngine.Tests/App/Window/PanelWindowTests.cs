@@ -321,7 +321,7 @@ public sealed class PanelWindowTests : IDisposable
 
     private DrivenWindow Open(string file)
     {
-        var window = DrivenWindow.Open(_folder, file);
+        var window = DrivenWindow.OpenInLowQuality(_folder, file);
         window.WaitForError(Warning);
         return window;
     }

@@ -234,7 +234,7 @@ public sealed class ReloadTests : IDisposable
 
     private DrivenWindow Open(params string[] options)
     {
-        var window = DrivenWindow.Open(_folder, "scene.sdo", options);
+        var window = DrivenWindow.OpenInLowQuality(_folder, "scene.sdo", options);
         window.WaitForError(Warning);
         return window;
     }

@@ -137,7 +137,7 @@ public sealed class SavingTests : IDisposable
 
     private DrivenWindow Open(string file, string[] options)
     {
-        var window = DrivenWindow.Open(_folder, file, options);
+        var window = DrivenWindow.OpenInLowQuality(_folder, file, options);
         window.WaitForError(Warning);
         return window;
     }

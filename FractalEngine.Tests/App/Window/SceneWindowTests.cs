@@ -97,7 +97,7 @@ public sealed class SceneWindowTests : IDisposable
             player (2, 1, -2) 0.3 1.6
 
             """);
-        using var window = Open("fall.sdo");
+        using var window = OpenInLowQuality("fall.sdo");
         // The simulation runs from the beginning, and the body bounces for ever in front of the camera, until Space pauses it.
         var running = window.Screenshot();
         Polling.WaitUntil(() => DifferingFraction(running, window.Screenshot()) > 0.01, "moving body");
@@ -140,7 +140,7 @@ public sealed class SceneWindowTests : IDisposable
             player (2, 1, -2) 0.3 1.6
 
             """);
-        using var window = Open("floor.sdo");
+        using var window = OpenInLowQuality("floor.sdo");
         window.Send("key 3");
         var fromTheRight = window.Screenshot();
         window.Send("key p");
@@ -241,10 +241,12 @@ public sealed class SceneWindowTests : IDisposable
         Assert.Equal(1, window.CloseWith("key Escape"));
     }
 
-    /// <summary>Opens a window, and waits until it shows the cube.</summary>
-    private DrivenWindow Open(string file)
+    private DrivenWindow Open(string file) => WaitForCube(DrivenWindow.Open(_folder, file));
+
+    private DrivenWindow OpenInLowQuality(string file) => WaitForCube(DrivenWindow.OpenInLowQuality(_folder, file));
+
+    private static DrivenWindow WaitForCube(DrivenWindow window)
     {
-        var window = DrivenWindow.Open(_folder, file);
         window.WaitForError(Warning);
         return window;
     }

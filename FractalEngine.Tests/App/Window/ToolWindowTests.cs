@@ -386,7 +386,7 @@ public sealed class ToolWindowTests : IDisposable
 
     private PixelImage Draw(params string[] options)
     {
-        using var window = DrivenWindow.Open(_folder, "scene.sdo", ["--resolution", "640x680", .. options]);
+        using var window = DrivenWindow.OpenInLowQuality(_folder, "scene.sdo", ["--resolution", "640x680", .. options]);
         window.WaitForError("missing.mtl");
         var image = window.Screenshot();
         Assert.Equal(0, window.CloseWith("key Escape"));
@@ -395,7 +395,7 @@ public sealed class ToolWindowTests : IDisposable
 
     private DrivenWindow OpenLarge(string file = "scene.sdo", string size = "900x700")
     {
-        var window = DrivenWindow.Open(_folder, file, "--resolution", size);
+        var window = DrivenWindow.OpenInLowQuality(_folder, file, "--resolution", size);
         window.WaitForError("missing.mtl");
         // Clicks before the first frame would meet nothing.
         window.Screenshot();
@@ -404,7 +404,7 @@ public sealed class ToolWindowTests : IDisposable
 
     private DrivenWindow Open(string file)
     {
-        var window = DrivenWindow.Open(_folder, file);
+        var window = DrivenWindow.OpenInLowQuality(_folder, file);
         window.WaitForError("missing.mtl");
         // Clicks before the first frame would meet nothing.
         window.Screenshot();

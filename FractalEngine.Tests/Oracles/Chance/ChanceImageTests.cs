@@ -29,10 +29,16 @@ public sealed class ChanceImageTests : IDisposable
     public void Dispose() => _folder.Dispose();
 
     [SkippableFact]
-    public void Images_OfRandomFiles_AreThoseOfTheirExportedMeshes()
+    public void Images_OfRandomFiles_AreThoseOfTheirExportedMeshes() => CheckRandomFiles(8);
+
+    [SkippableFact]
+    [Trait("Category", "Soak")]
+    public void Images_OfMoreRandomFiles_AreThoseOfTheirExportedMeshes() => CheckRandomFiles(20);
+
+    private void CheckRandomFiles(int fileCount)
     {
         var count = 0;
-        for (var seed = 1; count < 20; seed++)
+        for (var seed = 1; count < fileCount; seed++)
         {
             Random random = new(seed);
             var (file, instances) = RandomChanceFiles.Create(random, new() { MaxInstances = 200, MaxFaces = 2000 });

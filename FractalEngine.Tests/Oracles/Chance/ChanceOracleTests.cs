@@ -7,14 +7,14 @@ namespace FractalEngine.Tests.Oracles.Chance;
 public class ChanceOracleTests
 {
     [Fact]
-    public void Answers_OfFilesByChance_AreThoseOfAllTriangles() => Check(40, 10, 10);
+    public void Answers_OfFilesByChance_AreThoseOfAllTriangles() => Check(16, 10, 10);
 
     [Fact]
     [Trait("Category", "Soak")]
     public void Answers_OfManyFilesByChance_AreThoseOfAllTriangles() => Check(2000, 100, 100, inParallel: true);
 
     [Fact]
-    public void Answers_OfFilesByChanceThatTheEngineWrote_AreThoseOfAllTriangles() => Check(20, 5, 5, GraphSource.WrittenFile);
+    public void Answers_OfFilesByChanceThatTheEngineWrote_AreThoseOfAllTriangles() => Check(10, 5, 5, GraphSource.WrittenFile);
 
     [Fact]
     [Trait("Category", "Soak")]

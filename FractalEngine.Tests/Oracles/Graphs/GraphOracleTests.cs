@@ -12,14 +12,14 @@ public class GraphOracleTests
     private static readonly GraphOptions Linear = new() { IsLinear = true, HasIndirectCalls = true };
 
     [Fact]
-    public void Answers_OfLinearFiles_AreThoseOfAllTriangles() => Check(60, 10, 10, Linear);
+    public void Answers_OfLinearFiles_AreThoseOfAllTriangles() => Check(20, 10, 10, Linear);
 
     [Fact]
     [Trait("Category", "Soak")]
     public void Answers_OfManyLinearFiles_AreThoseOfAllTriangles() => Check(2000, 100, 100, Linear, inParallel: true);
 
     [Fact]
-    public void Answers_OfRandomFiles_AreThoseOfAllTriangles() => Check(60, 10, 10, new());
+    public void Answers_OfRandomFiles_AreThoseOfAllTriangles() => Check(20, 10, 10, new());
 
     [Fact]
     [Trait("Category", "Soak")]
@@ -35,7 +35,7 @@ public class GraphOracleTests
         Check(1000, 100, 100, new() { HasIndirectCalls = true }, inParallel: true);
 
     [Fact]
-    public void Answers_OfFractalsMadeInCode_AreThoseOfAllTriangles() => Check(60, 5, 5, new(), GraphSource.Code);
+    public void Answers_OfFractalsMadeInCode_AreThoseOfAllTriangles() => Check(20, 5, 5, new(), GraphSource.Code);
 
     [Fact]
     [Trait("Category", "Soak")]
@@ -43,7 +43,7 @@ public class GraphOracleTests
         Check(1000, 50, 50, new(), GraphSource.Code, inParallel: true);
 
     [Fact]
-    public void Answers_OfFilesThatTheEngineWrote_AreThoseOfAllTriangles() => Check(60, 5, 5, new(), GraphSource.WrittenFile);
+    public void Answers_OfFilesThatTheEngineWrote_AreThoseOfAllTriangles() => Check(20, 5, 5, new(), GraphSource.WrittenFile);
 
     [Fact]
     [Trait("Category", "Soak")]

@@ -38,7 +38,13 @@ public class RigidEnergyTests
     public void ManyBodies_ThrownIntoABox_GainNoEnergy() => Throw(5000);
 
     [Fact]
-    public void Bodies_ThatMeetInSpace_GainNoEnergyAndKeepTheirMomentum() => Seeded.Run(60, random =>
+    public void Bodies_ThatMeetInSpace_GainNoEnergyAndKeepTheirMomentum() => Meet(30);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void ManyBodies_ThatMeetInSpace_GainNoEnergyAndKeepTheirMomentum() => Meet(60);
+
+    private static void Meet(int count) => Seeded.Run(count, random =>
     {
         var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
         foreach (var place in (Vector[])[Vector.I, -Vector.I, Vector.J, -Vector.K])
@@ -68,7 +74,13 @@ public class RigidEnergyTests
     /// without losing a momentum that the other one keeps.
     /// </summary>
     [Fact]
-    public void BodiesThatSpinFast_AndMeetInSpace_KeepTheirMomentum() => Seeded.Run(40, random =>
+    public void BodiesThatSpinFast_AndMeetInSpace_KeepTheirMomentum() => MeetSpinning(20);
+
+    [Fact]
+    [Trait("Category", "Soak")]
+    public void ManyBodiesThatSpinFast_AndMeetInSpace_KeepTheirMomentum() => MeetSpinning(40);
+
+    private static void MeetSpinning(int count) => Seeded.Run(count, random =>
     {
         var world = TestWorlds.Create(Vector.Zero, 1 / 60.0);
         foreach (var place in (Vector[])[Vector.I, -Vector.I, Vector.J, -Vector.K])
@@ -96,7 +108,15 @@ public class RigidEnergyTests
     [InlineData(1e-3, 300)]
     [InlineData(1e-5, 30)]
     [InlineData(1e-4, 1000)]
-    public void SmallBodies_PressedIntoABox_GainNoEnergy(double size, double spin) => Seeded.Run(30, random =>
+    public void SmallBodies_PressedIntoABox_GainNoEnergy(double size, double spin) => Press(30, size, spin);
+
+    [Theory]
+    [InlineData(1e-3, 0)]
+    [InlineData(1e-3, 300)]
+    [Trait("Category", "Soak")]
+    public void ManySmallBodies_PressedIntoABox_GainNoEnergy(double size, double spin) => Press(300, size, spin);
+
+    private static void Press(int count, double size, double spin) => Seeded.Run(count, random =>
     {
         var world = TestWorlds.Create(TestWorlds.Gravity, 1 / 60.0, TestWorlds.Place(RigidMeshes.Box(6 * size, 6 * size, 6 * size)));
         var meshes = (Mesh[])[RigidMeshes.Box(1, 0.1, 0.5), RigidMeshes.CreateL(0.4), RigidMeshes.Box(1, 0.4, 0.7)];
