@@ -1,4 +1,6 @@
+using System.IO.Pipes;
 using System.Text;
+using Microsoft.Win32.SafeHandles;
 
 namespace FractalEngine.App.Shell;
 
@@ -11,17 +13,16 @@ internal static class StandardStreams
     /// <summary>Lets <see cref="Console.Out"/> and <see cref="Console.Error"/> write through these streams.</summary>
     public static void Install()
     {
-        Console.SetOut(CreateWriter(OpenOutput()));
+        Console.SetOut(CreateWriter(OpenOutput(Console.OpenStandardOutput)));
         Console.SetError(CreateWriter(new StandardStream(() => Open(2, Console.OpenStandardError), static _ => { })));
     }
 
     /// <summary>Writes a line with numbers to the standard error, in the invariant culture.</summary>
     public static void WriteReportLine(FormattableString line) => Console.Error.WriteLine(FormattableString.Invariant(line));
 
-    /// <summary>Opens the standard output.</summary>
+    /// <summary>Opens the standard output for the result of a command. Once nothing reads it any more, writing fails.</summary>
     /// <returns>A stream whose errors are an <see cref="IOException"/> that names the standard output.</returns>
-    public static Stream OpenOutput() => new StandardStream(() => Open(1, Console.OpenStandardOutput), static exception =>
-        throw new IOException($"the standard output can't be written: {exception.Message}", exception));
+    public static Stream OpenOutput() => OpenOutput(OpenPipeOrConsole);
 
     /// <summary>
     /// Tells whether the program was started without a stream. The runtime has taken its number for a pipe of its own then: reading that
@@ -42,6 +43,23 @@ internal static class StandardStreams
         {
             // Only Linux tells. There a number without a file is closed.
             return exception is FileNotFoundException && Directory.Exists("/proc/self/fdinfo");
+        }
+    }
+
+    private static StandardStream OpenOutput(Func<Stream> open) => new(() => Open(1, open), static exception =>
+        throw new IOException($"the standard output can't be written: {exception.Message}", exception));
+
+    /// <summary>The console's own stream writes into a pipe that nothing reads as if all were well.</summary>
+    private static Stream OpenPipeOrConsole()
+    {
+        try
+        {
+            return new AnonymousPipeClientStream(PipeDirection.Out, new SafePipeHandle(1, ownsHandle: false));
+        }
+        catch (IOException)
+        {
+            // It is a file, a device or a terminal.
+            return Console.OpenStandardOutput();
         }
     }
 

@@ -48,8 +48,8 @@ internal sealed class RigidPair
     public int SecondIndex { get; private set; }
 
     /// <summary>
-    /// True for what does not stop each other: where one carries the other, or a third one both, nothing comes closer; and bodies that begin
-    /// within each other come free first.
+    /// True for what does not stop each other: where one carries the other, or a third one both, nothing comes closer; and bodies that
+    /// begin within each other come free first.
     /// </summary>
     private bool IsFree => _isParting || (First.Carrier is not null && First.Carrier == Second.Carrier);
 

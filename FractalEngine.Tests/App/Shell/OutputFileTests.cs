@@ -96,6 +96,18 @@ public sealed class OutputFileTests : IDisposable
     }
 
     [SkippableFact]
+    public void Export_IntoAStandardOutputThatNothingReadsAnyMore_EndsByAnError()
+    {
+        Elsewhere.SkipIf(OperatingSystem.IsWindows(), "there is no such shell");
+        File.WriteAllText(_folder["row.fdo"], SampleFiles.Row("14"));
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell($"{{ dotnet exec '{app}' export row.fdo --output -; echo $? >code; }} | head -n 1; cat code");
+        Assert.Equal("2", result.Output.Trim()[^1..]);
+        Assert.StartsWith("error: the standard output can't be written: ", result.Error, StringComparison.Ordinal);
+        Assert.Single(result.Error.Trim().Split('\n'));
+    }
+
+    [SkippableFact]
     public void Export_IntoAPipe_WritesIntoIt()
     {
         Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
