@@ -1,4 +1,3 @@
-using System.IO.Pipes;
 using System.Text;
 using Microsoft.Win32.SafeHandles;
 
@@ -35,9 +34,7 @@ internal static class StandardStreams
         const long closeOnExec = 0x80000;
         try
         {
-            var flags = File.ReadLines(FormattableString.Invariant($"/proc/self/fdinfo/{number}"))
-                .FirstOrDefault(static line => line.StartsWith("flags:", StringComparison.Ordinal));
-            return flags is not null && (Convert.ToInt64(flags["flags:".Length..].Trim(), 8) & closeOnExec) != 0;
+            return HasFlag(number, closeOnExec);
         }
         catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FormatException)
         {
@@ -49,18 +46,36 @@ internal static class StandardStreams
     private static StandardStream OpenOutput(Func<Stream> open) => new(() => Open(1, open), static exception =>
         throw new IOException($"the standard output can't be written: {exception.Message}", exception));
 
-    /// <summary>The console's own stream writes into a pipe that nothing reads as if all were well.</summary>
+    /// <summary>
+    /// The console's own stream writes into a pipe that nothing reads as if all were well. That of a file does not wait where writing does
+    /// not block, and at places of its own: so it is for pipes that block.
+    /// </summary>
     private static Stream OpenPipeOrConsole()
     {
+        const long nonBlocking = 0x800;
         try
         {
-            return new AnonymousPipeClientStream(PipeDirection.Out, new SafePipeHandle(1, ownsHandle: false));
+            // The flag first: a number is a handle on Linux alone.
+            if (!HasFlag(1, nonBlocking)
+                && new FileStream(new SafeFileHandle(1, ownsHandle: false), FileAccess.Write, bufferSize: 0) is { CanSeek: false } pipe)
+            {
+                return pipe;
+            }
         }
-        catch (IOException)
+        catch (Exception exception) when (exception is IOException or UnauthorizedAccessException or FormatException)
         {
-            // It is a file, a device or a terminal.
-            return Console.OpenStandardOutput();
+            // Only Linux tells.
         }
+
+        return Console.OpenStandardOutput();
+    }
+
+    /// <summary>Tells whether a stream of the process was opened with a flag. Only Linux tells: errors of reading it are thrown.</summary>
+    private static bool HasFlag(int number, long flag)
+    {
+        var flags = File.ReadLines(FormattableString.Invariant($"/proc/self/fdinfo/{number}"))
+            .FirstOrDefault(static line => line.StartsWith("flags:", StringComparison.Ordinal));
+        return flags is not null && (Convert.ToInt64(flags["flags:".Length..].Trim(), 8) & flag) != 0;
     }
 
     private static Stream Open(int number, Func<Stream> open) => IsClosed(number) ? throw new IOException("it is closed") : open();

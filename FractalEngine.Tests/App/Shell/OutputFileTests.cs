@@ -108,6 +108,17 @@ public sealed class OutputFileTests : IDisposable
     }
 
     [SkippableFact]
+    public void Export_IntoAFullPipeThatDoesNotBlock_WaitsForItsReader()
+    {
+        Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "dd makes pipes that don't block on Linux");
+        File.WriteAllText(_folder["row.fdo"], SampleFiles.Row("14"));
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var result = Shell(
+            $"{{ dd oflag=nonblock </dev/null 2>dd.txt; dotnet exec '{app}' export row.fdo --output -; }} | {{ sleep 2; grep -c ^f; }}");
+        Assert.Equal("196608", result.Output.Trim());
+    }
+
+    [SkippableFact]
     public void Export_IntoAPipe_WritesIntoIt()
     {
         Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
