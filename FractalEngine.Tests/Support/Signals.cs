@@ -28,6 +28,29 @@ internal static class Signals
         return kill.ExitCode == 0;
     }
 
+    /// <summary>Ends a command by a signal once it writes a file.</summary>
+    /// <param name="folder">Where it runs, and writes.</param>
+    /// <param name="signal">Name without SIG, such as "TERM".</param>
+    /// <param name="arguments">The command, which would take long.</param>
+    /// <returns>Its exit code, and what it wrote to the standard error.</returns>
+    public static (int ExitCode, string Error) EndWhileWriting(TemporaryFolder folder, string signal, params string[] arguments)
+    {
+        Require(signal);
+        using var process = AppProcess.Start(folder.Path, [], arguments);
+        try
+        {
+            Polling.WaitUntil(() => Directory.GetFiles(folder.Path, "*.tmp").Length > 0, "output file");
+            Send(process, signal);
+            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
+        }
+        finally
+        {
+            process.Kill();
+        }
+
+        return (process.ExitCode, process.StandardError.ReadToEnd().Trim());
+    }
+
     private static bool IgnoresInterrupts() => File.Exists("/proc/self/status")
         && File.ReadLines("/proc/self/status").FirstOrDefault(line => line.StartsWith("SigIgn:", StringComparison.Ordinal)) is { } line
         && (ulong.Parse(line["SigIgn:".Length..].Trim(), NumberStyles.HexNumber, CultureInfo.InvariantCulture) & 2) != 0;

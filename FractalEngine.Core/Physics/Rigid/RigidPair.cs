@@ -1,5 +1,4 @@
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics.Descriptions;
 
 namespace FractalEngine.Core.Physics.Rigid;
 
@@ -141,7 +140,7 @@ internal sealed class RigidPair
             // Whatever crosses has begun so, and no normal of a face tells the way out.
             var between = motion1.Position - motion2.Position;
             Contacts.Clear();
-            Contacts.Add(new(-0.5 * between, between != Vector.Zero ? between.UnitVectorOrZero() : Vector.J, -PartingWay * Radius));
+            Contacts.Add(new(-0.5 * between, between != Vector.Zero ? between.UnitVector() : Vector.J, -PartingWay * Radius));
         }
     }
 

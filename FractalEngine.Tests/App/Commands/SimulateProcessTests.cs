@@ -74,20 +74,9 @@ public sealed class SimulateProcessTests : IDisposable
     [InlineData("TERM")]
     public void Simulate_Interrupted_WritesNothing(string signal)
     {
-        Signals.Require(signal);
-        using var process = AppProcess.Start(_folder.Path, [], "simulate", "scene.sdo", "--seconds", "100000", "--output", "bodies.csv");
-        try
-        {
-            Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
-            Signals.Send(process, signal);
-            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
-        }
-        finally
-        {
-            process.Kill();
-        }
-
-        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal(
+            (130, "error: interrupted"),
+            Signals.EndWhileWriting(_folder, signal, "simulate", "scene.sdo", "--seconds", "100000", "--output", "bodies.csv"));
         Assert.Equal(["cube.obj", "row.fdo", "scene.sdo", "still.sdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
     }
 

@@ -18,21 +18,8 @@ public sealed class OutputFileTests : IDisposable
     [InlineData("HUP")]
     public void Export_EndedByASignalWhileWriting_LeavesNoFile(string signal)
     {
-        Signals.Require(signal);
         _folder.Write("row.fdo", SampleFiles.Row("20"));
-        using var process = AppProcess.Start(_folder.Path, [], "export", "row.fdo", "--output", "t.obj");
-        try
-        {
-            Polling.WaitUntil(() => Directory.GetFiles(_folder.Path, "*.tmp").Length > 0, "output file");
-            Signals.Send(process, signal);
-            Assert.True(process.WaitForExit(Polling.Deadline), "the process does not end");
-        }
-        finally
-        {
-            process.Kill();
-        }
-
-        Assert.Equal((130, "error: interrupted"), (process.ExitCode, process.StandardError.ReadToEnd().Trim()));
+        Assert.Equal((130, "error: interrupted"), Signals.EndWhileWriting(_folder, signal, "export", "row.fdo", "--output", "t.obj"));
         Assert.Equal(["cube.obj", "row.fdo"], Directory.GetFiles(_folder.Path).Select(Path.GetFileName).Order());
     }
 
@@ -100,8 +87,7 @@ public sealed class OutputFileTests : IDisposable
     {
         Elsewhere.SkipIf(OperatingSystem.IsWindows(), "there is no such shell");
         File.WriteAllText(_folder["row.fdo"], SampleFiles.Row("14"));
-        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
-        var result = Shell($"{{ dotnet exec '{app}' export row.fdo --output -; echo $? >code; }} | head -n 1; cat code");
+        var result = Shell("{ APP export row.fdo --output -; echo $? >code; } | head -n 1; cat code");
         Assert.Equal("2", result.Output.Trim()[^1..]);
         Assert.StartsWith("error: the standard output can't be written: ", result.Error, StringComparison.Ordinal);
         Assert.Single(result.Error.Trim().Split('\n'));
@@ -112,9 +98,7 @@ public sealed class OutputFileTests : IDisposable
     {
         Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "dd makes pipes that don't block on Linux");
         File.WriteAllText(_folder["row.fdo"], SampleFiles.Row("14"));
-        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
-        var result = Shell(
-            $"{{ dd oflag=nonblock </dev/null 2>dd.txt; dotnet exec '{app}' export row.fdo --output -; }} | {{ sleep 2; grep -c ^f; }}");
+        var result = Shell("{ dd oflag=nonblock </dev/null 2>dd.txt; APP export row.fdo --output -; } | { sleep 2; grep -c ^f; }");
         Assert.Equal("196608", result.Output.Trim());
     }
 
@@ -122,8 +106,7 @@ public sealed class OutputFileTests : IDisposable
     public void Export_IntoAPipe_WritesIntoIt()
     {
         Elsewhere.SkipIf(OperatingSystem.IsWindows() || Shell("mkfifo pipe.obj").ExitCode != 0, "there are no named pipes");
-        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
-        var result = Shell($"cat pipe.obj >copy.obj & dotnet exec '{app}' export cube.obj --output pipe.obj; wait; test -p pipe.obj");
+        var result = Shell("cat pipe.obj >copy.obj & APP export cube.obj --output pipe.obj; wait; test -p pipe.obj");
         Assert.Equal(0, result.ExitCode);
         Assert.Equal(12, File.ReadLines(_folder["copy.obj"]).Count(line => line.StartsWith('f')));
     }
@@ -146,8 +129,7 @@ public sealed class OutputFileTests : IDisposable
     public void Command_WhereTheSystemRefuses_SaysWhatInOneLine(string command, int exitCode, string error)
     {
         Elsewhere.SkipIf(!OperatingSystem.IsLinux(), "the system's limits and messages are those of Linux");
-        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
-        var result = Shell(command.Replace("APP", $"dotnet exec '{app}'", StringComparison.Ordinal));
+        var result = Shell(command);
         Assert.Equal((exitCode, ""), (result.ExitCode, result.Output));
         Assert.StartsWith(error, result.Error, StringComparison.Ordinal);
         Assert.Equal(1, result.Error.Count('\n'.Equals));
@@ -173,8 +155,7 @@ public sealed class OutputFileTests : IDisposable
             "this user can't make device nodes");
         _folder.Write("points.txt", "1.5 0.1 0.2\n");
         _folder.Write("scene.sdo", "p \"cube.obj\" # 0.5\n");
-        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
-        var result = Shell($"dotnet exec '{app}' {command.Replace("FULL", "full", StringComparison.Ordinal)}");
+        var result = Shell($"APP {command.Replace("FULL", "full", StringComparison.Ordinal)}");
         Assert.Equal(exitCode, result.ExitCode);
         if (output.Length == 0)
         {
@@ -184,9 +165,11 @@ public sealed class OutputFileTests : IDisposable
         Assert.StartsWith(output, result.Output + result.Error, StringComparison.Ordinal);
     }
 
+    /// <summary>Runs a line in a shell, in which APP stands for the program.</summary>
     private AppResult Shell(string command)
     {
-        var start = new ProcessStartInfo("sh", ["-c", command])
+        var app = Path.ChangeExtension(typeof(OutputFile).Assembly.Location, ".dll");
+        var start = new ProcessStartInfo("sh", ["-c", command.Replace("APP", $"dotnet exec '{app}'", StringComparison.Ordinal)])
         {
             WorkingDirectory = _folder.Path, RedirectStandardOutput = true, RedirectStandardError = true,
         };
