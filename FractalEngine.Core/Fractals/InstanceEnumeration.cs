@@ -88,7 +88,7 @@ public static class InstanceEnumeration
         {
             var (fractal, placement) = fractals[index];
             var size = (placement * place.Part.Map).Linear.Absolute() * fractal.BaseMeshes[place.Part.MeshIndex].UsedBounds.Size;
-            if (fractal.HierarchyBySets.IsBase(place.State.Level) || size.Length() < smallest[index])
+            if (fractal.HierarchyBySets.IsBase(place.State.Level) || size.Length() <= smallest[index])
             {
                 found.Add((index, place.Part));
                 return;

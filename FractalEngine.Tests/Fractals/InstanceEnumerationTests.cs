@@ -80,6 +80,14 @@ public class InstanceEnumerationTests
     }
 
     [Fact]
+    public void ListLargest_OfAMapWithoutEnd_EndsWhereNothingIsLeftOfTheMesh()
+    {
+        var (_, instance) = Assert.Single(InstanceEnumeration.ListLargest(
+            [(Samples.Repeated(null, Samples.MoveAndScale(1, 0, 0, 0.5)), AffineMap.Identity)], 9));
+        Assert.InRange(instance.Path!.ToArray().Length, 40, 1100);
+    }
+
+    [Fact]
     public void ListLargest_WithRoomForAll_IsTheWholeFractal()
     {
         var fractal = RenderScenes.Menger(2).Fractal;
