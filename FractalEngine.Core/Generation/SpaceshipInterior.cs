@@ -59,11 +59,11 @@ internal sealed class SpaceshipInterior
         // More detail means more faces, though not strictly: the search ends at the largest detail found that fits.
         var fits = 0.0;
         var tooMuch = MaxDetail;
-        var best = new SpaceshipInterior(seed, 0).BuildMesh();
+        var best = new SpaceshipInterior(seed, 0).BuildMesh(faceCount);
         for (var step = 0; step < 24 && tooMuch - fits > 0.01 * fits; step++)
         {
             var detail = fits == 0 ? Math.Min(0.25, tooMuch / 4) : Math.Sqrt(fits * tooMuch);
-            var mesh = new SpaceshipInterior(seed, detail).BuildMesh();
+            var mesh = new SpaceshipInterior(seed, detail).BuildMesh(faceCount);
             if (mesh.FaceCount <= faceCount)
             {
                 fits = detail;
@@ -80,10 +80,11 @@ internal sealed class SpaceshipInterior
         return best.Build();
     }
 
-    private MeshBuilder BuildMesh()
+    /// <summary>Builds the corridor, or its first bays where these already have more faces than are wanted.</summary>
+    private MeshBuilder BuildMesh(int maxFaces)
     {
         _mesh.BeginGroup("walls");
-        for (var bay = 0; bay < Bays; bay++)
+        for (var bay = 0; bay < Bays && _mesh.FaceCount <= maxFaces; bay++)
         {
             foreach (var side in Enum.GetValues<Side>())
             {
