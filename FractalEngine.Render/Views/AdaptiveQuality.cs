@@ -103,6 +103,23 @@ public sealed class AdaptiveQuality
         }
     }
 
+    /// <summary>Returns settings with pixels as small as a frame can have in time, if its time follows the number of its pixels.</summary>
+    /// <param name="settings">Settings of a coarse frame.</param>
+    /// <param name="smallest">Side of the smallest square that is drawn as one pixel.</param>
+    /// <param name="frameTime">Time that the coarse frame takes.</param>
+    /// <param name="maxTime">Time that a finer one may take.</param>
+    public static RenderSettings Refine(RenderSettings settings, int smallest, TimeSpan frameTime, TimeSpan maxTime)
+    {
+        ArgumentNullException.ThrowIfNull(settings);
+        var size = settings.PixelSize;
+        while (size > smallest && Math.Pow((double)settings.PixelSize / (size - 1), 2) * frameTime <= maxTime)
+        {
+            size--;
+        }
+
+        return settings with { PixelSize = size };
+    }
+
     private CullingSettings Adapt(CullingSettings culling) => culling with
     {
         MinProjectedSize = Math.Max(culling.MinProjectedSize, _minProjectedSize),

@@ -1,3 +1,4 @@
+using System.Buffers.Binary;
 using System.IO.Compression;
 using FractalEngine.Core.Images;
 using FractalEngine.Render.Images;
@@ -27,6 +28,23 @@ public class PngWriterTests
         var image = Image(random, width, height);
         Assert.True(image.Pixels.AsSpan().SequenceEqual(ImageFile.Load(new MemoryStream(Write(image)), isTga: false).Pixels));
     });
+
+    [Theory]
+    [InlineData(10, 1000)]
+    [InlineData(29.97, 2997)]
+    [InlineData(23.976, 2398)]
+    [InlineData(0.01, 1)]
+    public void Animation_OfAFractionOfAFrameASecond_HasDelaysOfHundredthsOfIt(double framesPerSecond, int expected)
+    {
+        var animation = new ApngAnimation(framesPerSecond);
+        animation.Add(new(1, 1, [1, 2, 3, 4]));
+        var stream = new MemoryStream();
+        animation.Write(stream);
+        var control = stream.ToArray().AsSpan();
+        control = control[(control.IndexOf("fcTL"u8) + 4)..];
+        // A delay of so many parts of a second.
+        Assert.Equal((100, expected), (BinaryPrimitives.ReadUInt16BigEndian(control[20..]), BinaryPrimitives.ReadUInt16BigEndian(control[22..])));
+    }
 
     [Fact]
     public void WriteDeep_OfRandomImages_HasTheRowsOfThePlainEncoder() => Seeded.Run(100, random =>

@@ -167,21 +167,9 @@ internal sealed class WindowRenderer(FrameRenderer frame)
             _nextView = view;
         }
 
-        adapted = _isRefined ? Refine(adapted, settings.PixelSize) : adapted;
+        adapted = _isRefined ? AdaptiveQuality.Refine(adapted, settings.PixelSize, _coarseFrameTime, MaxAnswerTime) : adapted;
         frame.Draw(document.Renderer, _shownView, width, height, adapted, _nextView);
         return adapted;
-    }
-
-    /// <summary>Returns settings with pixels as small as a frame can have in time, if its time follows the number of its pixels.</summary>
-    private RenderSettings Refine(RenderSettings adapted, int smallest)
-    {
-        var size = adapted.PixelSize;
-        while (size > smallest && Math.Pow((double)adapted.PixelSize / (size - 1), 2) * _coarseFrameTime <= MaxAnswerTime)
-        {
-            size--;
-        }
-
-        return adapted with { PixelSize = size };
     }
 
     /// <summary>Reports the time of the last frame, so that the next ones keep up with a moving camera.</summary>

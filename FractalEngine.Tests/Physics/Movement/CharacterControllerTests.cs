@@ -34,6 +34,21 @@ public sealed class CharacterControllerTests
     }
 
     [Fact]
+    public void Gravity_ThatTurns_TurnsTheCharacterWithIt()
+    {
+        var (world, character) = CreateStandingCharacter(new(0, HalfHeight, 0), Ground, Box(new(3, 0, -20), new(4, 20, 20)));
+        world.Gravity = world.Gravity.Length() * Vector.I;
+        Near.Equal(-Vector.I, character.Up, 1e-12);
+        // It falls onto the wall, stands there, and goes up along it.
+        Move(world, Vector.Zero, 120);
+        Assert.True(character.IsGrounded);
+        Near.Equal(3 - HalfHeight, character.Position.X, TouchTolerance);
+        var height = character.Position.Y;
+        Move(world, Vector.J, 60);
+        Near.Equal(new(3 - HalfHeight, height + Speed, character.Position.Z), character.Position, 10 * TouchTolerance);
+    }
+
+    [Fact]
     public void Walk_AgainstAWall_SlidesAlong()
     {
         // At 45° to the wall, the part along the wall remains.

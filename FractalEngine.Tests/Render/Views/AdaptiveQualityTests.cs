@@ -30,6 +30,18 @@ public sealed class AdaptiveQualityTests
         Assert.Equal(8, quality.Adapt(new()).Culling!.MinProjectedSize);
     }
 
+    [Theory]
+    [InlineData(3, 1, 0.02, 1)]
+    // Nine times as many take 0.27 s, and 9 / 4 times 0.0675 s.
+    [InlineData(3, 1, 0.03, 2)]
+    [InlineData(3, 1, 0.2, 3)]
+    [InlineData(6, 2, 0.02, 2)]
+    [InlineData(2, 1, 0.0625, 1)]
+    [InlineData(1, 1, 9, 1)]
+    public void Refine_OfACoarseFrame_HasPixelsThatTakeAQuarterOfASecond(int size, int smallest, double seconds, int expected) =>
+        Assert.Equal(expected, AdaptiveQuality.Refine(
+            new() { PixelSize = size }, smallest, TimeSpan.FromSeconds(seconds), TimeSpan.FromSeconds(0.25)).PixelSize);
+
     [Fact]
     public void Pixels_OfSlowFrames_BecomeLargerWhereTheyMay_AndSmallerAgain()
     {

@@ -250,11 +250,15 @@ public sealed class DeepZoomDrawingTests
     }
 
     [SkippableFact]
-    public void Fog_WithDeepZoom_IsThatOfTheOrdinaryFrame()
+    public void FogAndLamps_WithDeepZoom_AreThoseOfTheOrdinaryFrame()
     {
-        // As dense as it takes to hide a part of what is near: the unit is a ninth of the scene's.
-        using var stage = new Stage(
-            "menger", Transformation.Identity, [RenderScenes.FullLight], fog: new(9, new(0, 0, 1)));
+        // Fog as dense as it takes to hide a part of what is near, and lamps that are large beside it: the unit is a ninth of the scene's.
+        Light[] lamps =
+        [
+            new BallLight(new(-1.1, 1.2, -0.2), 0.3, new(1, 0.4, 0.2), 0.5, 1),
+            new QuadLight(new(-1.2, 1.3, 1), new(0.2, -0.6, -0.3), 0.5, 0.2, new(0.3, 1, 0.3), 2, 2),
+        ];
+        using var stage = new Stage("menger", Transformation.Identity, lamps, fog: new(9, new(0, 0, 1)));
         var dive = new FractalDive(stage.Hierarchy, 7, AffineMap.Identity, new(-1, 1, 0.8));
         dive.GoToDepth(2, 0.2);
         var camera = stage.CreateCamera(dive);

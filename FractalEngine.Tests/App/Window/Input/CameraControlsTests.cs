@@ -59,6 +59,24 @@ public class CameraControlsTests
     });
 
     [Theory]
+    [InlineData(2, 1)]
+    [InlineData(1, 1)]
+    // The angle of view is that of the shorter side.
+    [InlineData(0.5, 0.5)]
+    public void Drag_WithTheMiddleButton_MovesBySoMuchOfTheShorterSide(double aspect, double expected)
+    {
+        Assert.Equal(expected, DistanceOf(aspect) / DistanceOf(1), 1e-9);
+
+        static double DistanceOf(double aspect)
+        {
+            var flight = CreateFlight();
+            flight.Controls.Handle(new MousePressed(MouseButton.Middle, 5, 5, KeyModifiers.None), aspect);
+            Assert.True(flight.Controls.Handle(new MouseMoved(15, 5, 10, 0), aspect));
+            return (flight.Camera.Camera.Position - StartPosition).Length();
+        }
+    }
+
+    [Theory]
     [InlineData(100)]
     [InlineData(200)] // past the corner, which a direction in double precision misses
     public void Wheel_InAndOutAgain_IsOutside(int notches)

@@ -1,6 +1,8 @@
 using FractalEngine.App.Window.State;
+using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes.Cameras;
 using FractalEngine.Core.Scenes.Films;
+using FractalEngine.Render.Views;
 
 namespace FractalEngine.Tests.App.Window.State;
 
@@ -36,6 +38,23 @@ public class FilmPlayerTests
         Assert.Equal((1.5, true), (player.Time, player.IsPlaying));
         player.Advance(0.5);
         Assert.Equal((2, false), (player.Time, player.IsPlaying));
+    }
+
+    [Fact]
+    public void Lines_OfAPath_HaveNoneWhereTheCameraJumps()
+    {
+        // A mark of five axes at each of three keys, and 32 parts of each way.
+        Assert.Equal(15 + 64, LinesOf(Ease.Linear).Count);
+        var lines = LinesOf(Ease.Hold);
+        Assert.Equal(15 + 32, lines.Count);
+        Assert.DoesNotContain(lines, static line => line.To.X is > 0.2 and < 0.8);
+
+        static IReadOnlyList<LineSegment> LinesOf(Ease ease)
+        {
+            var keys = ((Vector[])[Vector.Zero, Vector.I, Vector.I + Vector.J]).Select(
+                (position, time) => new CameraKey(time, new(position, Vector.Zero, 50)) { Ease = time == 1 ? ease : Ease.Linear });
+            return new FilmPlayer(new(2) { Keys = [.. keys] }, Handedness.Left, null) { ShowsPath = true }.Lines;
+        }
     }
 
     /// <summary>The window goes on with a film that was edited meanwhile.</summary>
