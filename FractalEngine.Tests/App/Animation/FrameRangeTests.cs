@@ -55,21 +55,6 @@ public sealed class FrameRangeTests : DrawingCommandTests
         Assert.Equal(File.ReadAllBytes(Folder["one.apng"]), File.ReadAllBytes(Folder["joined.apng"]));
     }
 
-    [Fact]
-    public void Frames_OfAZoomThatGoesOn_HaveTheBitsOfOneRun()
-    {
-        // The camera flies on from frame to frame, also past those that are there.
-        string[] how = [
-            "animate", Repository.Full("assets/examples/zoom.sdo"), "--zoom", "2", "--frames", "4", "--trace", "1", "--no-denoise",
-            "--resolution", "24x16"];
-        Assert.Equal(0, Run([.. how, "--output", "all.png"]).ExitCode);
-        var all = Frames("all");
-        Assert.Equal(4, all.Distinct().Count());
-        Assert.Equal(0, Run([.. how, "--output", "part.png", "--only", "1..2"]).ExitCode);
-        Assert.Contains("2 frames, 2 were there", Run([.. how, "--output", "part.png", "--resume"]).Error, StringComparison.Ordinal);
-        Assert.Equal(all, Frames("part"));
-    }
-
     [Theory]
     [InlineData(".png")]
     [InlineData(".hdr")]

@@ -255,7 +255,7 @@ public sealed class DeepZoomDrawingTests
         // Fog as dense as it takes to hide a part of what is near, and lamps that are large beside it: the unit is a ninth of the scene's.
         Light[] lamps =
         [
-            new BallLight(new(-1.1, 1.2, -0.2), 0.3, new(1, 0.4, 0.2), 0.5, 1),
+            new BallLight(new(-1.02, 1.05, 0.75), 0.04, new(1, 0.4, 0.2), 0.1, 2),
             new QuadLight(new(-1.2, 1.3, 1), new(0.2, -0.6, -0.3), 0.5, 0.2, new(0.3, 1, 0.3), 2, 2),
         ];
         using var stage = new Stage("menger", Transformation.Identity, lamps, fog: new(9, new(0, 0, 1)));
