@@ -140,8 +140,8 @@ public sealed class AreaLightSampler
 
         return model switch
         {
-            FractalModel { Fractal: { Description: { Composition: Composition.Affine, IsInfinite: false } } fractal } => new(
-                fractal.Hierarchy, fractal.Hierarchy.BaseMeshes,
+            FractalModel { Fractal: { Description: { Composition: Composition.Affine, IsInfinite: false } } fractal } lamp => new(
+                lamp.Named(static fractal => fractal.Hierarchy), fractal.Hierarchy.BaseMeshes,
                 (mesh, face) => radianceOf(parts.Length == 1 ? parts[0] : parts[mesh], face), _isUniform),
             FractalModel => null,
             _ => new(null, [model.Mesh], (_, face) => radianceOf(model, face), _isUniform),

@@ -3,6 +3,7 @@ using System.Globalization;
 using System.Numerics;
 using FractalEngine.Core.Colliders;
 using FractalEngine.Core.Fractals;
+using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Generation;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Rays;
@@ -63,10 +64,24 @@ public sealed class FractalModel(Fractal fractal) : Model
     public override BoundingBox Bounds => Fractal.Bounds;
 
     /// <inheritdoc/>
-    public override Collider CreateCollider(ColliderKind kind = ColliderKind.Exact) => Collider.For(Fractal, kind);
+    public override Collider CreateCollider(ColliderKind kind = ColliderKind.Exact) => Named(fractal => Collider.For(fractal, kind));
 
     /// <inheritdoc/>
-    public override RayCaster CreateRayCaster() => RayCaster.For(Fractal);
+    public override RayCaster CreateRayCaster() => Named(RayCaster.For);
 
     private protected override string KindName => "fractal";
+
+    /// <summary>Makes what needs the bounds of the fractal. Where there are none, the message names the model.</summary>
+    /// <exception cref="FractalLimitException">The fractal exceeds a limit.</exception>
+    internal T Named<T>(Func<Fractal, T> create)
+    {
+        try
+        {
+            return create(Fractal);
+        }
+        catch (FractalLimitException exception)
+        {
+            throw new FractalLimitException($"{Name}: {exception.Message}", exception);
+        }
+    }
 }

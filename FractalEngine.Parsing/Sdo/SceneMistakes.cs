@@ -1,3 +1,4 @@
+using FractalEngine.Core.Generation;
 using FractalEngine.Parsing.Text.Grammar;
 
 namespace FractalEngine.Parsing.Sdo;
@@ -20,6 +21,10 @@ internal static class SceneMistakes
         ?? failure.Explain($@"{FileOfObject}{Values}\n[-+]?\.?[0-9]", PlacementForm, "'('")
         // o "cube.obj" (#, #)
         ?? (failure.Expects(SyntaxFailure.Number) ? null : failure.Explain($@"{FileOfObject}{Values}\n\)", PlacementForm))
+        // o ball #
+        ?? failure.Explain(
+            $@"\n(?<shape>{string.Join('|', BaseShapes.Names)})\b",
+            "a scene takes a shape from a fractal file, such as one with the line '<$$>. ${shape}'", "a file name in quotes")
         // light point (0, 1, 0) (1, 1, 1)
         ?? ExplainLight(failure, "point", "position, colour, intensity and range")
         ?? ExplainLight(failure, "spot", "position, direction, angle, colour, intensity and range")

@@ -74,8 +74,8 @@ internal sealed record TracedScene
             (part, mesh) => ObjectPalette.ColourOf(part, index + mesh).ToLinearVector()).ToArray())];
         _gradientEnds = [.. _objects.Select((placed, index) =>
             placed.Gradient is { } gradient ? gradient.EndColour.ToLinearVector() : _colours[index][0])];
-        _gradients = [.. _objects.Select(static placed => placed.Model is FractalModel { Fractal: var fractal }
-            ? InstanceGradient.CreateOrNull(placed.Gradient, fractal) : null)];
+        _gradients = [.. _objects.Select(static placed => placed.Model is FractalModel model
+            ? InstanceGradient.CreateOrNull(placed.Gradient, model) : null)];
         _gradientGloss = [.. _gradients.Select(static shading => shading is { Gradient: { IsGlossy: true } gradient }
             ? Enumerable.Range(0, GradientGlossSteps + 1)
                 .Select(step => GradedSurface.At(gradient, (double)step / GradientGlossSteps)).ToArray()

@@ -61,6 +61,27 @@ public sealed class RefusalTests : IDisposable
         Assert.Contains(reason, error, StringComparison.Ordinal);
     }
 
+    /// <summary>Of several objects the message tells which, whatever of the fractal is needed first.</summary>
+    [Theory]
+    [InlineData("render scene.sdo -o a.png --trace 1 --resolution 8x8", "")]
+    [InlineData("render scene.sdo -o a.png --trace 1 --resolution 8x8", " gradient height \"ember\"")]
+    [InlineData("render scene.sdo -o a.png --trace 1 --resolution 8x8", " gradient height \"ember\" glow 0 1")]
+    [InlineData("query scene.sdo --points points.txt", "")]
+    [InlineData("query scene.sdo --rays rays.txt", "")]
+    public void Command_OfAFractalWithoutBounds_NamesTheFractal(string command, string gradient)
+    {
+        _folder.Write(
+            "turns.fdo",
+            "t. ((0, 0, 0.01), (0, 0, 37), (1, 0.9999, 1))\nu. ((0.01, 0, 0), (0, 20, 3), (0.9999, 1, 1))\nz<box>. [t., u.] box\n"
+            + "<$>. z 9000\n");
+        _folder.Write("scene.sdo", $"c (0, 0, -5) # 60\no \"cube.obj\" #\no \"turns.fdo\" #{gradient}\n");
+        _folder.Write("points.txt", "1 2 3\n");
+        _folder.Write("rays.txt", "0 0 -5 0 0 1\n");
+        var (exitCode, _, error) = Run(command.Split(' '));
+        Assert.Equal(3, exitCode);
+        Assert.StartsWith("error: turns.fdo: exact search needs transformations that shrink", error, StringComparison.Ordinal);
+    }
+
     [Theory]
     [InlineData("clip 1e-300 10")]
     [InlineData("clip 1 1e300")]

@@ -227,11 +227,11 @@ public class InstanceGradientTests
     [Fact]
     public void CreateOrNull_OfWhatNeedsNone_IsNull()
     {
-        var fractal = Read(Tree);
-        Assert.Null(InstanceGradient.CreateOrNull(null, fractal));
-        Assert.Null(InstanceGradient.CreateOrNull(new(GradientKind.Level, Colour.White), fractal));
-        Assert.Null(InstanceGradient.CreateOrNull(Gradient.Of(GradientKind.None, Colours), fractal));
-        Assert.NotNull(InstanceGradient.CreateOrNull(new(GradientKind.Height, Colour.White), fractal));
+        var model = new FractalModel(Read(Tree));
+        Assert.Null(InstanceGradient.CreateOrNull(null, model));
+        Assert.Null(InstanceGradient.CreateOrNull(new(GradientKind.Level, Colour.White), model));
+        Assert.Null(InstanceGradient.CreateOrNull(Gradient.Of(GradientKind.None, Colours), model));
+        Assert.NotNull(InstanceGradient.CreateOrNull(new(GradientKind.Height, Colour.White), model));
         Assert.Null(InstanceGradient.CreateOrNull(Gradient.Of(GradientKind.Height, Colours), LodHierarchy.Build(Samples.Tetrahedron)));
     }
 

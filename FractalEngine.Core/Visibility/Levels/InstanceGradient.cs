@@ -1,4 +1,3 @@
-using FractalEngine.Core.Fractals;
 using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Fractals.Levels;
 using FractalEngine.Core.Geometry;
@@ -67,15 +66,15 @@ public sealed class InstanceGradient
 
     /// <summary>Prepares what a gradient on a fractal needs, and builds the fractal's hierarchy for it.</summary>
     /// <param name="gradient">The gradient; null for none.</param>
-    /// <param name="fractal">The fractal.</param>
+    /// <param name="model">Shows the fractal; its name is part of what an exception says.</param>
     /// <returns>Null where the gradient needs nothing, or the fractal is not in affine composition.</returns>
     /// <exception cref="FractalLimitException">The bounds of some level overflow a double, or don't converge.</exception>
     /// <exception cref="SingularMatrixException">A map has no inverse.</exception>
-    public static InstanceGradient? CreateOrNull(Gradient? gradient, Fractal fractal)
+    public static InstanceGradient? CreateOrNull(Gradient? gradient, FractalModel model)
     {
-        ArgumentNullException.ThrowIfNull(fractal);
-        return gradient is null or { IsPlain: true } || fractal.Description.Composition != Composition.Affine
-            ? null : CreateOrNull(gradient, LodHierarchy.Build(fractal));
+        ArgumentNullException.ThrowIfNull(model);
+        return gradient is null or { IsPlain: true } || model.Fractal.Description.Composition != Composition.Affine
+            ? null : CreateOrNull(gradient, model.Named(LodHierarchy.Build));
     }
 
     /// <summary>Computes what an instance gets to which a query has led, or the proxy of a sub-fractal.</summary>

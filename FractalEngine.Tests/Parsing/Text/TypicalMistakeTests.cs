@@ -322,6 +322,17 @@ public class TypicalMistakeTests
             """
         },
         {
+            "a shape in place of a file",
+            """
+            p ball (#, #, #) 0.5
+            """,
+            """
+            room.sdo:1:3: error: unexpected 'ball': a scene takes a shape from a fractal file, such as one with the line '<$>. ball'
+              p ball (#, #, #) 0.5
+                ^
+            """
+        },
+        {
             "a comment behind an object",
             """
             o "cube.obj" # # red
