@@ -1,7 +1,6 @@
 using System.Diagnostics;
 using System.Globalization;
 using FractalEngine.Core.Maths;
-using FractalEngine.Core.Physics;
 using FractalEngine.Tests.Support;
 using Xunit.Abstractions;
 using Xunit.Sdk;

@@ -1,6 +1,4 @@
 using FractalEngine.Core.Fractals;
-using FractalEngine.Core.Generation;
-using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics;
 using FractalEngine.Core.Physics.Descriptions;
