@@ -33,9 +33,6 @@ internal sealed class WorldStepper
     // Parts of a step at most: what is so fast still passes no body that is free.
     private const int MaxParts = 64;
 
-    // Relative to the radius: where an object goes farther in a step, balls that are not alone take it as bodies of any shape do.
-    private const double MaxTravelOfBalls = 400;
-
     // Room for so many bodies near a moving object; beyond it the list grows.
     private const int InitialNeighbourCapacity = 256;
 
@@ -248,9 +245,9 @@ internal sealed class WorldStepper
             {
                 var body = _bodies[index];
                 var beside = seconds * moved.MaxSpeedBeside(body.Velocity);
-                var maxTravel = (body.IsCompound ? MaxParts * MaxKinematicTravel : MaxTravelOfBalls) * body.Radius;
-                if (distance > maxTravel && (_rigid.IsNeeded || _near.Count > 1 || body.IsCompound))
+                if (distance > MaxParts * MaxKinematicTravel * body.Radius && (_rigid.IsNeeded || _bodies.Count > 1 || body.IsCompound))
                 {
+                    // It would get past what waits for others in a part.
                     _isFast = true;
                     continue;
                 }

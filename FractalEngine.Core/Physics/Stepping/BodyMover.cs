@@ -20,6 +20,9 @@ internal sealed class BodyMover
     // Impacts without time in between: more of them are a corner that leaves no path.
     private const int MaxSimultaneousImpacts = 16;
 
+    // Relative to the radius: by so much an object may overrun what has stopped at it, and still pushes it out on the same side.
+    private const double MaxOverrun = 0.25;
+
     private readonly Obstacles _obstacles;
     private readonly BodySweep _sweep;
     private readonly BodyContacts _contacts;
@@ -153,6 +156,20 @@ internal sealed class BodyMover
             _sweep.RemoveRoundingOverlap(body, metBall, in contact);
             body.Balls[metBall].Contacts.Add(in contact, body.BallCentre(metBall));
             body.PlanStop(metBall, in contact);
+            CarryAlong(body, body.BallCentre(metBall), in contact, stepLength - elapsed);
+        }
+    }
+
+    /// <summary>Takes a body along that has stopped at an object, which would go through it in the time that is left.</summary>
+    private void CarryAlong(Body body, Vector centre, in Contact contact, double timeLeft)
+    {
+        var normal = contact.Normal(centre);
+        var speed = Vector.Dot(contact.SurfaceVelocity(centre), normal);
+        if (timeLeft * speed > MaxOverrun * body.MinBallRadius)
+        {
+            var motion = new SphereMotion(body.Position, speed * normal, Vector.Zero);
+            _ = _sweep.TryFindImpact(body, in motion, Vector.Zero, timeLeft, out _, out _, out var elapsed);
+            body.Position = motion.PositionAt(elapsed);
         }
     }
 

@@ -14,8 +14,10 @@ internal sealed class ConvexUnion(ImmutableArray<ConvexPart> parts)
     public static ConvexUnion Of(Mesh mesh, IEnumerable<AffineMap> maps) => new([.. maps.Select(map => new ConvexPart(mesh, map))]);
 
     /// <summary>The parts where they are, of a body or of a static object that was not moved.</summary>
-    public PlacedPart[] Place(Body? body = null) =>
-        [.. parts.Select(part => new PlacedPart(part, body is null ? static point => point : point => RigidMeshes.PointOf(body, point)))];
+    public PlacedPart[] Place(Body? body = null) => Place(body is null ? static point => point : point => RigidMeshes.PointOf(body, point));
+
+    /// <summary>The parts where a function puts their points.</summary>
+    public PlacedPart[] Place(Func<Vector, Vector> place) => [.. parts.Select(part => new PlacedPart(part, place))];
 
     /// <summary>What is wrong between two placed unions: null where neither reaches into the other.</summary>
     /// <param name="first">Parts of one.</param>

@@ -51,6 +51,37 @@ public class FastPlateTests
             _ => [new(Vector.Zero, CompoundShape.OfBalls([new(-0.4 * Vector.I, 0.3), new(0.4 * Vector.I, 0.2), new(0.3 * Vector.K, 0.3)]))],
         });
 
+    /// <summary>The lower ball was far from the plate when the step began, whose parts are for what is near.</summary>
+    [Fact]
+    public void Plate_PassesNoBallThatAnotherThrowsAtIt()
+    {
+        var plate = new SceneObject(Plates[0]) { Motion = new() { Velocity = new(0, 300, 0) } };
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0, new PlacedModel(plate));
+        var body = world.AddSphere(new(0, 13, 0), 0.3);
+        world.AddSphere(new(0.1, 25, 0), 0.4, velocity: new(0, -30_000, 0));
+        world.Run(3, () => Assert.InRange(HeightAbove(world, body), -Tolerance, 1));
+    }
+
+    /// <summary>It goes two radii in each of the parts that a step has at most, while balls stop each other.</summary>
+    [Fact]
+    public void Plate_PassesNoBallsThatItThrowsAtOthers() => Seeded.Run(12, static random =>
+    {
+        var plate = new SceneObject(Plates[0]) { Motion = new() { Velocity = new(0, 4000, 0) } };
+        var world = TestWorlds.Create(Vector.Zero, 1 / 60.0, new PlacedModel(plate));
+        var restitution = random.NextDouble();
+        for (var i = 0; i < 8; i++)
+        {
+            var place = 3 * new Vector(i & 1, 2 + (i >> 2), (i >> 1) & 1);
+            world.Add(new(place + random.Vector(0.03), random.Between(0.2, 0.5))
+            {
+                Restitution = restitution,
+                Mass = Math.Pow(10, random.Between(-1, 1)),
+            });
+        }
+
+        world.Run(2, () => Assert.All(world.Bodies, body => Assert.InRange(HeightAbove(world, body), -Tolerance, 1e4)));
+    });
+
     [Fact]
     public void PlateThatTurns_PassesNoMesh() => Seeded.RunOne(3, random =>
     {

@@ -34,6 +34,14 @@ internal sealed class PlacedPart
         return depth;
     }
 
+    /// <summary>Distance of a point from the part; inside, that to the closest face's plane, negative.</summary>
+    public double DistanceTo(Vector point)
+    {
+        var depth = DepthOf(point);
+        var faces = _part.Faces.Select(face => (Vertices[face.A], Vertices[face.B], Vertices[face.C]));
+        return depth > 0 ? -depth : new SphereTriangleOracle([.. faces]).Distance(point);
+    }
+
     /// <summary>How deep a vertex of another part is inside at most.</summary>
     public double MaxDepthOf(PlacedPart other) => other.Vertices.Max(DepthOf);
 
