@@ -105,14 +105,15 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
             // A scene of many objects has smaller fractals.
             var budget = 3000 / count;
             var file = random.Draw((80, Invariant($"f{i}.fdo")), (12, "painted.obj"), (8, "open.obj"));
+            var isGraded = file[0] == 'f' && random.Happens(25);
             if (file[0] == 'f')
             {
-                folder.Write(file, random.Happens(30) ? BoxesSideBySide(budget) : Fractal(budget));
+                folder.Write(file, random.Happens(30) ? BoxesSideBySide(budget, isGraded) : Fractal(budget));
             }
 
             lines.Append(Invariant($"o \"{file}\" {Placement(isFirst: i == 0)}"));
             lines.Append(random.Happens(50) ? Invariant($" colour {Colour()}") : "");
-            lines.AppendLine(file[0] == 'f' && random.Happens(25) ? GradientOption() : "");
+            lines.AppendLine(isGraded ? GradientOption() : "");
         }
 
         return lines.ToString();
@@ -125,7 +126,8 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         var size = Math.Max(bounds.Diagonal, 1e-9);
         var centre = bounds.Centre;
         var lines = new StringBuilder();
-        var distance = size * random.Draw((20, 0), (20, random.Between(0.3, 0.7)), (40, random.Between(0.7, 1.5)), (20, random.Between(2, 8)));
+        var distance = size * random.Draw(
+            (20, 0), (20, random.Between(0.3, 0.7)), (40, random.Between(0.7, 1.5)), (20, random.Between(2, 8)));
         var eye = distance == 0
             ? centre + (0.5 * bounds.Size.Stretch(random.Vector())) : centre + (distance * random.Direction());
         var target = centre + (0.3 * bounds.Size.Stretch(random.Vector()));
@@ -202,7 +204,7 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         var rotation = random.Draw((1, Vector.Zero), (1, random.Degrees()));
         var scale = random.Between(0.5, 2) * random.Draw<Vector>(
             (60, Vector.One), (12, new(-1, 1, 1)), (10, new(1, 0.02, 1)), (10, new(1, random.Between(0.3, 2), -0.7)), (8, -Vector.One));
-        return random.Happens(20) ? "#" : Invariant($"({Text(position)}, {Text(rotation)}, {Text(scale)})");
+        return isFirst && random.Happens(40) ? "#" : Invariant($"({Text(position)}, {Text(rotation)}, {Text(scale)})");
     }
 
     private string GradientOption()
@@ -227,7 +229,8 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         text.AppendLine("v 0.5 0.3 -0.2\nv 0.6 0.6 0.6\nt.a. (a, #, 2)");
         text.AppendLine(Invariant($"turn. (#, {Text(random.Degrees())}, #)\nstep. ({Text(random.Vector())}, #, (0.8))"));
         text.AppendLine("lean.matrix (1, 0, 0) (0.4, 1, 0) (0, 0.2, 1) (0, 0.3, 0)");
-        text.AppendLine(Invariant($"x. {Base()}\ny. {Base()}"));
+        // Nothing decides which of two shapes at one place is seen: the second is moved, and turned.
+        text.AppendLine(Invariant($"x. {Base()}\ny. [((0.13, 0.07, -0.05), (7, 11, 13), (0.9))] {Base()}"));
         switch (random.Next(10))
         {
             case 0:
@@ -242,7 +245,8 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
                 text.AppendLine(Invariant($"<$>. z {Depth(first + second + 0.5, budget)}"));
                 break;
             case 3:
-                text.AppendLine(Invariant($"z<x>. 3: [{Maps(3)}] x | {random.Next(3)}: [{Maps(2)}] x + y | 1: x\n<$>. z {Depth(3.5, budget)}"));
+                text.AppendLine(Invariant($"z<x>. 3: [{Maps(3)}] x | {random.Next(3)}: [{Maps(2)}] x + y | 1: x"));
+                text.AppendLine(Invariant($"<$>. z {Depth(3.5, budget)}"));
                 break;
             case 4:
                 text.AppendLine(Invariant($"z<x>, w<y>. [{Maps(2)}] x + [{Maps(1)}] y, [{Maps(2)}] x + y + [{Map()}] y"));
@@ -263,20 +267,24 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
                 text.AppendLine(Invariant($"z<x>. [{Maps(3)}] x + (level 0..1: y | 2..: [step.] y)\n<$>. z {Depth(3.5, budget)}"));
                 break;
             default:
-                text.AppendLine(Invariant($"z<x>. [#, turn. * step.^1..2, lean.] (1: x | 1: [{Map()}] x)\n<$>. [{Maps(2)}] z {Depth(4, budget / 2.0)}"));
+                text.AppendLine(Invariant($"z<x>. [#, turn. * step.^1..2, lean.] (1: x | 1: [{Map()}] x)"));
+                text.AppendLine(Invariant($"<$>. [{Maps(2)}] z {Depth(4, budget / 2.0)}"));
                 break;
         }
 
         return text.ToString();
     }
 
-    /// <summary>Creates boxes of a grid, of which neighbours cover sides: some are missing, doubled, turned, moved, or of another size.</summary>
-    private string BoxesSideBySide(int budget)
+    /// <summary>
+    /// Creates boxes of a grid, of which neighbours cover sides: some are missing, doubled, turned, moved, or of another size.
+    /// </summary>
+    private string BoxesSideBySide(int budget, bool isGraded)
     {
         var count = random.Draw((1, 2), (2, 3), (1, 4));
         var size = Math.Pow(10, random.Draw((6, 0), (1, -4), (1, 4)));
         var share = random.Next(30, 101);
-        var oddShare = random.Draw((2, 0), (1, random.Next(1, 30)));
+        // Sides in one plane have one colour: nothing decides which of two is seen.
+        var oddShare = isGraded || random.Happens(60) ? 0 : random.Next(1, 30);
         List<string> maps = [];
         for (var i = 0; i < count * count * count; i++)
         {
@@ -310,17 +318,18 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
                 }
             }
 
-            var colour = random.Happens(10) ? Invariant($" colour {Colour()} 0.5") : "";
+            var colour = oddShare == 0 && random.Happens(10) ? Invariant($" colour {Colour()} 0.5") : "";
             maps.Add(Invariant($"({Text(size * place)}, {Text(rotation)}, {Text(scale)}){colour}"));
         }
 
         var set = string.Join(", ", maps);
         var depth = Depth(maps.Count, budget);
-        var start = Invariant($"x. [(#, #, ({size:R}))] {Pick(["box", "\"painted.obj\"", "box material \"m.mtl\" \"matt\""])}\n");
+        var box = oddShare == 0 && random.Happens(30) ? "\"painted.obj\"" : Pick(["box", "box material \"m.mtl\" \"matt\""]);
+        var start = Invariant($"x. [(#, #, ({size:R}))] {box}\n");
         return start + (random.Next(5) switch
         {
             0 => Invariant($"z<x>. 3: [{set}] x | 1: x\n<$>. z {depth}\n"),
-            1 => Invariant($"z<x>. [{set}] x + [({Text(random.Vector(0.5 * size))}, #, (0.2))] x\n<$>. z {depth}\n"),
+            1 => Invariant($"z<x>. [{set}] x + [({Text(random.Vector(0.5 * size))}, (9, 8, 7), (0.2))] x\n<$>. z {depth}\n"),
             2 => Invariant($"z<x>. [{set}] x\n<$>. z until {size * random.Between(0.1, 0.6):R}\n"),
             _ => Invariant($"z<x>. [{set}] x\n<$>. z {depth}\n"),
         });
@@ -334,14 +343,16 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         _ => Pick(Shapes),
     };
 
-    private string Maps(int count, double minScale = 0.25, double maxScale = 0.8) =>
-        string.Join(", ", Enumerable.Range(0, count).Select(i => i == 0 && count > 1 && random.Happens(8) ? "#" : Map(minScale, maxScale)));
+    private string Maps(int count, double minScale = 0.25, double maxScale = 0.8) => string.Join(
+        ", ",
+        Enumerable.Range(0, count).Select(i =>
+            i == 0 && count > 1 && maxScale > 0.6 && random.Happens(8) ? "#" : Map(minScale, maxScale)));
 
     private string Map(double minScale = 0.25, double maxScale = 0.8)
     {
         if (minScale < 0.3 && random.Happens(10))
         {
-            return Pick(["t.1", "step.^2", "turn. * step.", "(lean. * step.)^2"]);
+            return Pick(["t.1", "step.^2", "turn. * step.", "(lean. * step.)^2"]) + Invariant($" * ({Text(random.Vector(0.3))}, #, #)");
         }
 
         var factor = random.Between(minScale, maxScale);
