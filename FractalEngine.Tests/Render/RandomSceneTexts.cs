@@ -95,6 +95,9 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
     /// <summary>Whether any object has a gradient.</summary>
     public bool HasGradient { get; private set; }
 
+    /// <summary>Whether boxes of several colours touch, so that nothing decides which side is seen from within them.</summary>
+    public bool HasTouchingColours { get; private set; }
+
     /// <summary>Writes the fractals of a scene, and returns the lines of its objects.</summary>
     public string WriteObjects(TemporaryFolder folder)
     {
@@ -126,8 +129,9 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         var size = Math.Max(bounds.Diagonal, 1e-9);
         var centre = bounds.Centre;
         var lines = new StringBuilder();
+        var closest = HasTouchingColours ? 0 : 20;
         var distance = size * random.Draw(
-            (20, 0), (20, random.Between(0.3, 0.7)), (40, random.Between(0.7, 1.5)), (20, random.Between(2, 8)));
+            (closest, 0), (closest, random.Between(0.3, 0.7)), (40, random.Between(0.7, 1.5)), (20, random.Between(2, 8)));
         var eye = distance == 0
             ? centre + (0.5 * bounds.Size.Stretch(random.Vector())) : centre + (distance * random.Direction());
         var target = centre + (0.3 * bounds.Size.Stretch(random.Vector()));
@@ -139,7 +143,7 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
             lines.AppendLine(Invariant($"projection orthographic {random.Between(0.3, 1.3) * size:R}"));
         }
 
-        if (random.Happens(12))
+        if (random.Happens(12) && !HasTouchingColours)
         {
             var near = Math.Max((eye - centre).Length() - (random.Between(0, 0.5) * size), 1e-3 * size);
             lines.AppendLine(Invariant($"clip {near:R} {near + (random.Between(0.2, 3) * size):R}"));
@@ -283,6 +287,7 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
         var count = random.Draw((1, 2), (2, 3), (1, 4));
         var size = Math.Pow(10, random.Draw((6, 0), (1, -4), (1, 4)));
         var share = random.Next(30, 101);
+        HasTouchingColours |= isGraded;
         // Sides in one plane have one colour: nothing decides which of two is seen.
         var oddShare = isGraded || random.Happens(60) ? 0 : random.Next(1, 30);
         List<string> maps = [];
@@ -319,12 +324,14 @@ internal sealed class RandomSceneTexts(Random random, Random rig)
             }
 
             var colour = oddShare == 0 && random.Happens(10) ? Invariant($" colour {Colour()} 0.5") : "";
+            HasTouchingColours |= colour.Length > 0;
             maps.Add(Invariant($"({Text(size * place)}, {Text(rotation)}, {Text(scale)}){colour}"));
         }
 
         var set = string.Join(", ", maps);
         var depth = Depth(maps.Count, budget);
         var box = oddShare == 0 && random.Happens(30) ? "\"painted.obj\"" : Pick(["box", "box material \"m.mtl\" \"matt\""]);
+        HasTouchingColours |= box[0] == '"';
         var start = Invariant($"x. [(#, #, ({size:R}))] {box}\n");
         return start + (random.Next(5) switch
         {
