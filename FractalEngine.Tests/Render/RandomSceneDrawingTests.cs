@@ -47,7 +47,7 @@ public sealed class RandomSceneDrawingTests(ITestOutputHelper output) : IDisposa
     public void Dispose() => _folder.Dispose();
 
     [SkippableFact]
-    public void Scene_LooksAsWithEveryInstance() => Check(1, 12);
+    public void Scene_LooksAsWithEveryInstance() => Check(1, 6);
 
     /// <summary>So many as FRACTALENGINE_SCENES says, from the seed FRACTALENGINE_FIRST_SCENE on.</summary>
     [SkippableFact]
