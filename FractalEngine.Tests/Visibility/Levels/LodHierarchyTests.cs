@@ -4,6 +4,7 @@ using FractalEngine.Core.Fractals.Descriptions;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Visibility.Levels;
+using FractalEngine.Parsing;
 using FractalEngine.Tests.Colliders;
 using FractalEngine.Tests.Support;
 using FractalEngine.Tests.Visibility.Frames;
@@ -38,6 +39,21 @@ public class LodHierarchyTests
     [MemberData(nameof(Assets))]
     public void Build_OfAnAsset_HasItsInstancesInItsBoxes(string name, int depth) =>
         Check(depth < 0 ? AssetFractals.Load(name) : AssetFractals.Load(name, depth));
+
+    /// <summary>Bases that a map makes larger vanished from afar, and those that one makes thin grew.</summary>
+    [Theory]
+    [InlineData("(1000)", 1000, 1000)]
+    [InlineData("(0.1, 1, 0.1)", 0.1, 1)]
+    public void Proxy_OfABaseUnderASetOfOneMap_IsTheBaseUnderThatMap(string scale, double x, double y)
+    {
+        using var folder = new TemporaryFolder();
+        var corners = string.Join(", ", Enumerable.Range(0, 8).Select(i =>
+            $"(({(i % 2 * 500) - 250}, {(i / 2 % 2 * 500) - 250}, {(i / 4 * 500) - 250}), #, (1/2))"));
+        var path = folder.Write("block.fdo", $"x. [(#, #, {scale})] box\nz<x>. [{corners}] x\n<$>. z 3\n");
+        var hierarchy = LodHierarchy.Build(FractalFile.Read(path));
+        var map = hierarchy.NodeAt(hierarchy.LevelCount).ProxyMap.ToAffineMap();
+        Assert.Equal(AffineMap.Scale(new(x, y, x), Vector.Zero), map);
+    }
 
     [Fact]
     public void Build_OfRandomFractals_HasTheirInstancesInTheirBoxes() => Seeded.Run(25, random => Check(RandomFractals.CreateAny(random)));
