@@ -4,7 +4,6 @@ using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
 using FractalEngine.Core.Scenes;
-using FractalEngine.Core.Visibility.Frames;
 using FractalEngine.Parsing.Assets;
 using FractalEngine.Render;
 using FractalEngine.Render.Images;
