@@ -475,7 +475,7 @@ public sealed class PhysicsWorld
     {
         _bodies.RemoveRange(_sceneBodyCount, _bodies.Count - _sceneBodyCount);
         _statics.Objects.ForEach(static target => target.ResetPlacement());
-        _bodies.ForEach(body => body.Reset(_gravity));
+        _bodies.ForEach(static body => body.Reset());
         Character?.Reset();
         _statics.Clock = default;
         _statics.Kinematics.Reset(0);
@@ -586,7 +586,7 @@ public sealed class PhysicsWorld
 
     private Body AppendBody(BodyDescription description)
     {
-        var body = new Body(description, _bodies.Count, _gravity) { Shrinkage = ShrinkageOverride ?? description.Shrinkage };
+        var body = new Body(description, _bodies.Count) { Shrinkage = ShrinkageOverride ?? description.Shrinkage };
         _bodies.Add(body);
         return body;
     }
@@ -615,7 +615,7 @@ public sealed class PhysicsWorld
     {
         foreach (var body in _bodies)
         {
-            body.InvalidateSurroundings(_gravity, mayOverlap);
+            body.InvalidateSurroundings(mayOverlap);
         }
 
         Character?.Capsule.InvalidateSurroundings();

@@ -67,7 +67,6 @@ internal sealed class WorldRecorder(string name, PhysicsWorld world)
             _bodies += (body.Index + 1) * (body.FaceTests + (2 * body.BoundTests) + (3 * body.Contacts.Count)
                 + (5 * body.NearSurfaces.Count) + (7 * body.SleepCount)
                 + Bits(body.IsAsleep, body.IsStuck, body.IsIdle, body.MayTouchBodies, body.HasHeapMargin, body.IsTouching));
-            _forces.Add(body.NetAcceleration);
             _forces.Add(body.SleepTimer);
         }
 

@@ -150,7 +150,7 @@ public sealed class PhysicsRangeTests
 
     private static void CheckOverlaps(IEnumerable<BodyDescription> descriptions, bool isAccepted)
     {
-        var bodies = descriptions.Select(static (description, i) => new Body(description, i, Vector.Zero)).ToArray();
+        var bodies = descriptions.Select(static (description, i) => new Body(description, i)).ToArray();
         var exception = Record.Exception(() => PhysicsLimits.Require(bodies));
         Assert.Equal(isAccepted, exception is null);
         if (exception is not null)

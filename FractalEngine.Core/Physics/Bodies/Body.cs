@@ -21,14 +21,13 @@ public sealed class Body
     /// <summary>Creates a body in its initial state.</summary>
     /// <param name="description">Already validated.</param>
     /// <param name="index">Index among the bodies of the world.</param>
-    /// <param name="acceleration">Acceleration of free fall, until contacts take their part of it.</param>
-    internal Body(BodyDescription description, int index, Vector acceleration)
+    internal Body(BodyDescription description, int index)
     {
         Description = description;
         Index = index;
         var ballCount = description.Mesh is null ? description.Shape?.Balls.Length ?? 1 : 0;
         Balls = [.. Enumerable.Range(0, ballCount).Select(static _ => new BodyBall())];
-        Reset(acceleration);
+        Reset();
     }
 
     /// <summary>The description that the body was made from.</summary>
@@ -130,8 +129,7 @@ public sealed class Body
     }
 
     /// <summary>Returns the body to its initial state.</summary>
-    /// <param name="acceleration">Acceleration of free fall.</param>
-    internal void Reset(Vector acceleration)
+    internal void Reset()
     {
         Position = Description.Position;
         PreviousPosition = Description.Position;
@@ -153,7 +151,6 @@ public sealed class Body
         IsOverlapResolved = false;
         MayTouchBodies = true;
         HasHeapMargin = false;
-        NetAcceleration = acceleration;
         DiscardSurfaces();
     }
 
@@ -213,12 +210,10 @@ public sealed class Body
     }
 
     /// <summary>Discards everything that is known of surfaces and contacts, and wakes the body.</summary>
-    /// <param name="acceleration">Acceleration of free fall.</param>
     /// <param name="mayOverlap">True where an obstacle may have come to overlap the body.</param>
-    internal void InvalidateSurroundings(Vector acceleration, bool mayOverlap)
+    internal void InvalidateSurroundings(bool mayOverlap)
     {
         Wake();
-        NetAcceleration = acceleration;
         DiscardSurfaces();
         IsOverlapResolved &= !mayOverlap;
     }
@@ -249,7 +244,6 @@ public sealed class Body
         SleepCount++;
         Velocity = Vector.Zero;
         AngularVelocity = Vector.Zero;
-        NetAcceleration = Vector.Zero;
     }
 
     /// <summary>
@@ -428,9 +422,6 @@ public sealed class Body
 
     /// <summary>How often the body has fallen asleep.</summary>
     internal int SleepCount { get; private set; }
-
-    /// <summary>Acceleration that remains after contacts have taken their part.</summary>
-    internal Vector NetAcceleration { get; set; }
 
     /// <summary>Energy of motion and rotation, joules.</summary>
     internal double KineticEnergy => (0.5 * Description.Mass * Velocity.LengthSquared()) + SpinEnergy;

@@ -544,7 +544,6 @@ internal sealed class SubstepSolver(List<Body> bodies, ImpulseCache cache, int m
             body.PlannedStart = body.Position;
             body.PlannedStartEnergy = body.KineticEnergy;
             (body.PlannedChange, body.PlannedSpinChange) = (Vector.Zero, Vector.Zero);
-            body.NetAcceleration = (velocity - body.Velocity) / _stepLength;
             body.Velocity = velocity;
             body.AngularVelocity = spin;
             if (body.IsCompound)

@@ -118,7 +118,6 @@ internal sealed class BallFlight(
 
         var isSlow = contacts.Count > 0 && !contacts.HasMovingSurface && body.Velocity.MaxAbsComponent() <= negligibleSpeed;
         body.Velocity = netAcceleration == Vector.Zero && isSlow ? Vector.Zero : body.Velocity;
-        body.NetAcceleration = netAcceleration;
         var motion = new SphereMotion(body.Position, body.Velocity, netAcceleration);
         if (body.Velocity == Vector.Zero && netAcceleration == Vector.Zero && obstacles.MaxKinematicSpeed(in motion, duration) == 0)
         {

@@ -208,7 +208,6 @@ internal sealed class BodyMover
         if (body.IsStuck)
         {
             body.Velocity = Vector.Zero;
-            body.NetAcceleration = Vector.Zero;
             // A ball that turns in place pushes nothing along its normals.
             body.AngularVelocity = body.IsCompound ? Vector.Zero : body.AngularVelocity;
         }

@@ -177,7 +177,6 @@ internal sealed class CompoundFlight(
             var finalMomentum = body.InertiaTensor * planned.Spin;
             body.SetOrientation(orientation.TurnedBy(share * turn));
             body.AngularVelocity = share < 1 ? body.InverseInertiaTensor * (momentum + (share * (finalMomentum - momentum))) : end.Spin;
-            body.NetAcceleration = motion.Acceleration;
             body.Velocity = share < 1 ? motion.VelocityAt(elapsed) : end.Velocity;
             if (touched is { } met)
             {

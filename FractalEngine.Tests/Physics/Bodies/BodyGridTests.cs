@@ -62,7 +62,7 @@ public class BodyGridTests
     [Fact]
     public void Update_OfABodyThatEntersAnotherCell_TellsOfIt()
     {
-        List<Body> bodies = [.. Enumerable.Range(0, 40).Select(static i => new Body(new(new(4 * i, 0, 0), 1), i, Vector.Zero))];
+        List<Body> bodies = [.. Enumerable.Range(0, 40).Select(static i => new Body(new(new(4 * i, 0, 0), 1), i))];
         var grid = new BodyGrid();
         grid.Build(bodies);
         var version = grid.Version;
@@ -90,7 +90,7 @@ public class BodyGridTests
     private static BodyGrid Build((Vector Position, double Radius)[] balls)
     {
         var grid = new BodyGrid();
-        grid.Build([.. balls.Select(static (ball, i) => new Body(new(ball.Position, ball.Radius), i, Vector.Zero))]);
+        grid.Build([.. balls.Select(static (ball, i) => new Body(new(ball.Position, ball.Radius), i))]);
         return grid;
     }
 

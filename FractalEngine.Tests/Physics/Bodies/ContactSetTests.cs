@@ -181,5 +181,5 @@ public sealed class ContactSetTests
 
     private static Contact Ball(Vector direction, int index) => new(0.5 * direction, 0.5, Vector.Zero, index, IsFlat: false);
 
-    private static Body CreateBody(int index, Vector velocity) => new(new(9 * Vector.I, 0.25) { Velocity = velocity }, index, Vector.Zero);
+    private static Body CreateBody(int index, Vector velocity) => new(new(9 * Vector.I, 0.25) { Velocity = velocity }, index);
 }

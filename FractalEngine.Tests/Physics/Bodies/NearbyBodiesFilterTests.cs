@@ -51,7 +51,7 @@ public sealed class NearbyBodiesFilterTests
                 new(new(2, 2, 2), 0.125), new(new(2, 2, 2), 9) { Layer = layer },
                 .. Enumerable.Range(0, 12).Select(static i => new BodyDescription(new(50 + i, 0, 0), 0.125)),
             ]);
-        bodies[0] = new(new(new(2, 2, 2), 0.125) { Mask = 1 }, 0, Vector.Zero);
+        bodies[0] = new(new(new(2, 2, 2), 0.125) { Mask = 1 }, 0);
         Assert.Equal([1], grid.LargeBodies);
         var nearby = new NearbyBodies(grid, bodies) { HasFilters = true };
         int[] expected = meets ? [1] : [];
@@ -65,7 +65,7 @@ public sealed class NearbyBodiesFilterTests
 
     private static (BodyGrid Grid, List<Body> Bodies) Create(params BodyDescription[] descriptions)
     {
-        List<Body> bodies = [.. descriptions.Select(static (one, i) => new Body(one, i, Vector.Zero))];
+        List<Body> bodies = [.. descriptions.Select(static (one, i) => new Body(one, i))];
         var grid = new BodyGrid();
         grid.Build(bodies);
         return (grid, bodies);

@@ -42,7 +42,7 @@ public class NearbyBodiesTests
     {
         var random = new Random(Seed);
         var bodies = CreateBodies(random, 400).FindAll(static body => body.Radius < 0.1);
-        bodies = [.. bodies.Select((body, i) => new Body(body.Description, i, Vector.Zero))];
+        bodies = [.. bodies.Select((body, i) => new Body(body.Description, i))];
         var grid = new BodyGrid();
         grid.Build(bodies);
         var nearby = new NearbyBodies(grid);
@@ -77,5 +77,5 @@ public class NearbyBodiesTests
 
     /// <summary>Every twentieth body is wider than a cell.</summary>
     private static List<Body> CreateBodies(Random random, int count) => [.. Enumerable.Range(0, count).Select(
-        i => new Body(new BodyDescription(random.Vector(1), i % 20 == 0 ? 0.3 : 0.03 + (0.02 * random.NextDouble())), i, Vector.Zero))];
+        i => new Body(new BodyDescription(random.Vector(1), i % 20 == 0 ? 0.3 : 0.03 + (0.02 * random.NextDouble())), i))];
 }

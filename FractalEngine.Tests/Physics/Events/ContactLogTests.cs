@@ -10,7 +10,7 @@ namespace FractalEngine.Tests.Physics.Events;
 /// <summary>Contacts of steps, and what is told of them: in the order of bodies, each pair once.</summary>
 public sealed class ContactLogTests
 {
-    private readonly List<Body> _bodies = [.. Enumerable.Range(0, 4).Select(static i => new Body(new(new(i, 0, 0), 0.5), i, Vector.Zero))];
+    private readonly List<Body> _bodies = [.. Enumerable.Range(0, 4).Select(static i => new Body(new(new(i, 0, 0), 0.5), i))];
     private readonly PhysicsWorld _world = new();
     private readonly StaticObjectSet _statics = new(static _ => { }, null);
     private readonly ContactLog _log;
@@ -152,7 +152,7 @@ public sealed class ContactLogTests
     [Fact]
     public void AddRest_OfABodyOnASlope_IsWhatStopsItsFall()
     {
-        var body = new Body(new(Vector.Zero, 0.5) { Mass = 2 }, 1, Vector.Zero);
+        var body = new Body(new(Vector.Zero, 0.5) { Mass = 2 }, 1);
         _log.AddRest(body, Vector.Zero, new(0, -8, 0), Vector.Zero, 0.25);
         Assert.Equal(0, _log.Records.Length);
         body.Contacts.Add(new Contact(new(-0.3, -0.4, 0), 0.5, Vector.Zero, 3, IsFlat: false), Vector.Zero);

@@ -11,7 +11,7 @@ internal sealed class GraphOfBodies
 {
     public GraphOfBodies(params BodyDescription[] descriptions)
     {
-        Bodies = [.. descriptions.Select(static (one, i) => new Body(one, i, Vector.Zero) { IsOverlapResolved = true })];
+        Bodies = [.. descriptions.Select(static (one, i) => new Body(one, i) { IsOverlapResolved = true })];
         Grid.Build(Bodies);
         Nearby = new(Grid, Bodies);
         Sleep = new(Bodies, Nearby);

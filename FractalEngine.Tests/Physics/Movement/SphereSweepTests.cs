@@ -172,7 +172,7 @@ public sealed class SphereSweepTests
 
         public Setup(Mesh? mesh, params BodyDescription[] descriptions)
         {
-            List<Body> bodies = [.. descriptions.Select(static (one, i) => new Body(one, i, Vector.Zero))];
+            List<Body> bodies = [.. descriptions.Select(static (one, i) => new Body(one, i))];
             var grid = new BodyGrid();
             grid.Build(bodies);
             var statics = new StaticObjectSet(static _ => { }, null);

@@ -20,7 +20,7 @@ public sealed class ContactRowsTests
     [Fact]
     public void OfSurface_OfABall_HasItsMaterialsAndItsPlane()
     {
-        var body = new Body(Ball, 4, Vector.Zero);
+        var body = new Body(Ball, 4);
         var contact = new Contact(new(1, 1.5, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
         var row = ContactRows.OfSurface(body, 0, in contact);
         Assert.Equal((4, ContactRow.Immovable, 0, false), (row.First, row.Second, row.FeatureId, row.IsAhead));
@@ -35,7 +35,7 @@ public sealed class ContactRowsTests
     [Fact]
     public void OfSurface_OfABallOfACompound_HasItsArm()
     {
-        var body = new Body(new(new(1, 2, 3), Dumbbell) { RollingFriction = 0.5, SpinningFriction = 0.25 }, 0, Vector.Zero);
+        var body = new Body(new(new(1, 2, 3), Dumbbell) { RollingFriction = 0.5, SpinningFriction = 0.25 }, 0);
         var contact = new Contact(new(3, 1.25, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true);
         var row = ContactRows.OfSurface(body, 1, in contact);
         Assert.True(row.HasArms);
@@ -52,7 +52,7 @@ public sealed class ContactRowsTests
         var plate = world.AddStatic(PhysicsMeshes.Cube, Transformation.At(new(1, 1, 3)));
         plate.SetMotion(new(0, 2, 0), new(0, 0.5, 0));
         plate.SetBelt(new(8, 0, 0));
-        var body = new Body(Ball, 0, Vector.Zero);
+        var body = new Body(Ball, 0);
         var contact = new Contact(new(1.25, 1.5, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true) { Kinematic = plate.Kinematic };
         var row = ContactRows.OfSurface(body, 0, in contact);
         // The point turns about the plate's centre, 0.25 beside it.
@@ -70,7 +70,7 @@ public sealed class ContactRowsTests
     public void OfNearSurface_AboveAFace_KeepsItsNormalAndIsAheadOfIt(double height, bool isAhead)
     {
         // The centre is at a height of 2, and the closest point of the face lies beside.
-        var body = new Body(Ball, 2, Vector.Zero);
+        var body = new Body(Ball, 2);
         var face = new Contact(new(5, height, 3), 0.5, Vector.Zero, Contact.NoBody, IsFlat: true) { CachedNormal = Vector.J };
         var row = ContactRows.OfNearSurface(body, 0, in face);
         Assert.Equal((Vector.J, isAhead, 2), (row.Normal, row.IsAhead, row.First));
@@ -80,9 +80,9 @@ public sealed class ContactRowsTests
     [Fact]
     public void SetBalls_OfTwoBodies_HasTheSmallerOfEachProperty()
     {
-        var first = new Body(Ball, 3, Vector.Zero);
+        var first = new Body(Ball, 3);
         var second = new Body(
-            new(new(1, 2, 3.5), 0.25) { Friction = 0.5, Restitution = 1, RollingFriction = 0.25, SpinningFriction = 0.25 }, 7, Vector.Zero);
+            new(new(1, 2, 3.5), 0.25) { Friction = 0.5, Restitution = 1, RollingFriction = 0.25, SpinningFriction = 0.25 }, 7);
         var row = new ContactRow { RollingArm = 1 };
         ContactRows.SetBalls(ref row, first, 0, second, 0, isImmovable: false, isAhead: true);
         Assert.Equal((3, 7, true, true, false, 0), (row.First, row.Second, row.IsAhead, row.IsBall, row.HasArms, row.FeatureId));
@@ -102,8 +102,8 @@ public sealed class ContactRowsTests
     [InlineData(1, 1, 65)]
     public void SetBalls_OfTwoCompounds_TellsWhichOfTheirBalls(int ball, int otherBall, int feature)
     {
-        var first = new Body(new(Vector.Zero, Dumbbell), 0, Vector.Zero);
-        var second = new Body(new(new(0, 3, 0), Dumbbell), 1, Vector.Zero);
+        var first = new Body(new(Vector.Zero, Dumbbell), 0);
+        var second = new Body(new(new(0, 3, 0), Dumbbell), 1);
         var row = new ContactRow();
         ContactRows.SetBalls(ref row, first, ball, second, otherBall, isImmovable: false, isAhead: false);
         Assert.Equal(feature, row.FeatureId);
@@ -118,8 +118,8 @@ public sealed class ContactRowsTests
     [InlineData(false, true)]
     public void SetBalls_OfABallAndACompound_HasArms(bool isFirst, bool isSecond)
     {
-        var ball = new Body(Ball, 0, Vector.Zero);
-        var compound = new Body(new(new(1, 5, 3), Dumbbell), 1, Vector.Zero);
+        var ball = new Body(Ball, 0);
+        var compound = new Body(new(new(1, 5, 3), Dumbbell), 1);
         var row = new ContactRow();
         ContactRows.SetBalls(ref row, isFirst ? compound : ball, 0, isSecond ? compound : ball, 0, isImmovable: false, isAhead: false);
         Assert.True(row.HasArms);

@@ -62,5 +62,5 @@ public sealed class ContactResponseTests
         Near.Equal(4 / 4.8, duration, 1e-8);
     }
 
-    private static Body Create(double friction) => new(new(Vector.Zero, 0.5) { Friction = friction }, 0, Vector.Zero);
+    private static Body Create(double friction) => new(new(Vector.Zero, 0.5) { Friction = friction }, 0);
 }

@@ -56,7 +56,7 @@ public sealed class ParallelSteppersTests
 
     private static BodyStepper CreateStepper(QueryContext context)
     {
-        List<Body> bodies = [new(new(Vector.Zero, 1), 0, Vector.Zero)];
+        List<Body> bodies = [new(new(Vector.Zero, 1), 0)];
         var grid = new BodyGrid();
         var nearby = new NearbyBodies(grid, bodies);
         var log = new ContactLog(bodies, new StaticObjectSet(static _ => { }, null));
