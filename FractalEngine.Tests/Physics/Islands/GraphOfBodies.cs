@@ -1,4 +1,3 @@
-using FractalEngine.Core.Maths;
 using FractalEngine.Core.Physics.Bodies;
 using FractalEngine.Core.Physics.Descriptions;
 using FractalEngine.Core.Physics.Islands;
