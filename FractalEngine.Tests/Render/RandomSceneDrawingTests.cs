@@ -1,5 +1,4 @@
 using System.Diagnostics;
-using System.Globalization;
 using FractalEngine.Core.Geometry;
 using FractalEngine.Core.Images;
 using FractalEngine.Core.Maths;
@@ -52,10 +51,7 @@ public sealed class RandomSceneDrawingTests(ITestOutputHelper output) : IDisposa
     [SkippableFact]
     [Trait("Category", "Soak")]
     public void ManyScenes_LookAsWithEveryInstance() =>
-        Check(NumberOf("FRACTALENGINE_FIRST_SCENE", 1), NumberOf("FRACTALENGINE_SCENES", 500));
-
-    private static int NumberOf(string variable, int otherwise) =>
-        Environment.GetEnvironmentVariable(variable) is { } text ? int.Parse(text, CultureInfo.InvariantCulture) : otherwise;
+        Check(LongRuns.NumberOf("FRACTALENGINE_FIRST_SCENE", 1), LongRuns.NumberOf("FRACTALENGINE_SCENES", 500));
 
     private void Check(int firstSeed, int count)
     {

@@ -1,5 +1,4 @@
 using System.Diagnostics;
-using System.Globalization;
 using System.Text;
 using System.Text.RegularExpressions;
 using FractalEngine.Tests.Support;
@@ -46,7 +45,7 @@ public sealed class KillTests : IDisposable
             Display.Require();
         }
 
-        Check(command, int.Parse(Environment.GetEnvironmentVariable("FRACTALENGINE_KILLS") ?? "12", CultureInfo.InvariantCulture));
+        Check(command, LongRuns.NumberOf("FRACTALENGINE_KILLS", 12));
     }
 
     /// <summary>All commands that write files.</summary>

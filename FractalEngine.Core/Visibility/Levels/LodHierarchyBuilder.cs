@@ -29,9 +29,9 @@ internal static class LodHierarchyBuilder
         var hasColours = fractal.HasColours;
         var means = hasColours ? MeanTints.Compute(hierarchy).Zip(hierarchy.AllLevels.Items.ToArray()).ToDictionary(
             static pair => pair.Second, static pair => pair.First) : null;
-        var carried = CarriedBases(hierarchy);
+        var carried = fractal.HasSeveralMeshes ? null : CarriedBases(hierarchy);
         var nodes = hierarchy.AllLevels.Select(level => BuildNode(
-            level, baseBox, fractal.HasSeveralMeshes ? (AffineMap.Identity, baseBox) : carried[level], hierarchy.HasPicks, means?[level]));
+            level, baseBox, carried?[level] ?? (AffineMap.Identity, baseBox), hierarchy.HasPicks, means?[level]));
         return new(nodes, hierarchy.Top.Level, mesh)
         {
             HasCoveredSides = !hierarchy.HasPicks && CoveredSides.TryMark(nodes.Items, mesh),

@@ -1,5 +1,4 @@
 using System.Diagnostics;
-using System.Globalization;
 using FractalEngine.Core.Maths;
 using FractalEngine.Tests.Support;
 using Xunit.Abstractions;
@@ -42,10 +41,8 @@ public class ThrownBodiesTests(ITestOutputHelper output)
     /// <summary>So many as the variable FRACTALENGINE_BODIES says, from the seed that FRACTALENGINE_SEED says.</summary>
     [Fact]
     [Trait("Category", "Soak")]
-    public void ManyBodies_Thrown_KeepToWhatIsGuaranteed() => Throw(Read("FRACTALENGINE_SEED", 1000), Read("FRACTALENGINE_BODIES", 20_000));
-
-    private static int Read(string variable, int otherwise) =>
-        Environment.GetEnvironmentVariable(variable) is { } text ? int.Parse(text, CultureInfo.InvariantCulture) : otherwise;
+    public void ManyBodies_Thrown_KeepToWhatIsGuaranteed() =>
+        Throw(LongRuns.NumberOf("FRACTALENGINE_SEED", 1000), LongRuns.NumberOf("FRACTALENGINE_BODIES", 20_000));
 
     /// <summary>Goes on after a fault, so that a long run finds all of them.</summary>
     private void Throw(int firstSeed, int count)
